@@ -1,0 +1,34 @@
+#include "preproc/mesh/surface_mesh.hpp"
+
+namespace scan2fea {
+
+BoundingBox bounding_box(const std::vector<Vec3>& points) {
+  if (points.empty()) return {};
+  BoundingBox box{points.front(), points.front()};
+  for (const Vec3& p : points) {
+    box.low = box.low.cwiseMin(p);
+    box.high = box.high.cwiseMax(p);
+  }
+  return box;
+}
+
+double enclosed_volume(const SurfaceMesh& mesh) {
+  const BoundingBox box = bounding_box(mesh.vertices);
+  const Vec3 centre = 0.5 * (box.low + box.high);
+  double six_volumes = 0;
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3 a = mesh.vertices[t[0]] - centre;
+    const Vec3 b = mesh.vertices[t[1]] - centre;
+    const Vec3 c = mesh.vertices[t[2]] - centre;
+    six_volumes += a.dot(b.cross(c));
+  }
+  return six_volumes / 6;
+}
+
+double surface_area(const SurfaceMesh& mesh) {
+  double twice_area = 0;
+  for (const Triangle& t : mesh.triangles) twice_area += area_vector(mesh, t).norm();
+  return twice_area / 2;
+}
+
+}  // namespace scan2fea

@@ -1,0 +1,70 @@
+#include "preproc/mesh/tet_mesh.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace scan2fea {
+namespace {
+
+struct Face {
+  Triangle key;  // sorted corners
+  BoundaryFace face;
+};
+
+}  // namespace
+
+std::vector<BoundaryFace> find_boundary(const std::vector<Tetrahedron>& tetrahedra) {
+  std::vector<Face> faces;
+  faces.reserve(tetrahedra.size() * 4);
+  for (std::uint32_t t = 0; t < tetrahedra.size(); ++t) {
+    for (std::uint8_t f = 0; f < 4; ++f) {
+      Triangle key;
+      for (std::size_t k = 0; k < 3; ++k) key[k] = tetrahedra[t][static_cast<std::size_t>(tetrahedron_faces[f][k])];
+      std::sort(key.begin(), key.end());
+      faces.push_back({key, {t, f}});
+    }
+  }
+  std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.key < b.key; });
+
+  std::vector<BoundaryFace> boundary;
+  for (std::size_t i = 0; i < faces.size();) {
+    std::size_t j = i + 1;
+    while (j < faces.size() && faces[j].key == faces[i].key) ++j;
+    if (j == i + 1) boundary.push_back(faces[i].face);
+    i = j;
+  }
+  std::sort(boundary.begin(), boundary.end(), [](BoundaryFace a, BoundaryFace b) {
+    return a.tetrahedron != b.tetrahedron ? a.tetrahedron < b.tetrahedron : a.face < b.face;
+  });
+  return boundary;
+}
+
+SurfaceMesh boundary_surface(const TetMesh& mesh) {
+  constexpr auto unused = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> renumbered(mesh.nodes.size(), unused);
+  SurfaceMesh surface;
+  surface.triangles.reserve(mesh.boundary.size());
+  for (const BoundaryFace f : mesh.boundary) {
+    surface.triangles.push_back(boundary_triangle(mesh, f));
+    for (const std::uint32_t v : surface.triangles.back()) renumbered[v] = 0;
+  }
+  for (std::size_t v = 0; v < mesh.nodes.size(); ++v) {
+    if (renumbered[v] == unused) continue;
+    renumbered[v] = static_cast<std::uint32_t>(surface.vertices.size());
+    surface.vertices.push_back(mesh.nodes[v]);
+  }
+  for (Triangle& t : surface.triangles)
+    for (std::uint32_t& v : t) v = renumbered[v];
+  return surface;
+}
+
+double total_volume(const TetMesh& mesh) {
+  double six_volumes = 0;
+  for (const Tetrahedron& t : mesh.tetrahedra) {
+    const Vec3& a = mesh.nodes[t[0]];
+    six_volumes += (mesh.nodes[t[1]] - a).cross(mesh.nodes[t[2]] - a).dot(mesh.nodes[t[3]] - a);
+  }
+  return six_volumes / 6;
+}
+
+}  // namespace scan2fea

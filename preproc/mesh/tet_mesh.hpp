@@ -1,0 +1,58 @@
+// The tetrahedral mesh that is exported to solvers.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "preproc/mesh/surface_mesh.hpp"
+
+namespace scan2fea {
+
+using Tetrahedron = std::array<std::uint32_t, 4>;
+using MidEdgeNodes = std::array<std::uint32_t, 6>;
+
+// Edges of a tetrahedron in the order of the mid-edge nodes of Abaqus, CalculiX, Nastran and VTK: 12 23 13 14 24 34.
+// Gmsh swaps the last two; the exporter does that, nothing else needs to know.
+inline constexpr std::array<std::array<int, 2>, 6> tetrahedron_edges{
+    {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
+
+// Faces of a tetrahedron in Abaqus's order S1 = 1-2-3, S2 = 1-4-2, S3 = 2-4-3, S4 = 3-4-1. Seen from outside a
+// positive tetrahedron these are clockwise; `boundary_triangle` gives them counter-clockwise.
+inline constexpr std::array<std::array<int, 3>, 4> tetrahedron_faces{{{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}};
+
+struct BoundaryFace {
+  std::uint32_t tetrahedron;  // the element behind the face
+  std::uint8_t face;          // 0..3, an index into tetrahedron_faces
+};
+
+// Nodes are in model units. The corner nodes of the boundary come first and in the order of the surface's vertices
+// (unless the mesher was allowed to split the boundary), then interior corners, then mid-edge nodes.
+// A tetrahedron (a, b, c, d) is positive: (b - a) x (c - a) . (d - a) > 0, as every solver here wants it.
+struct TetMesh {
+  std::vector<Vec3> nodes;
+  std::vector<Tetrahedron> tetrahedra;
+  std::vector<MidEdgeNodes> mid_edge_nodes;  // empty for first order, one per tetrahedron for second order
+  std::vector<BoundaryFace> boundary;        // in the order of the surface's triangles
+
+  int order() const { return mid_edge_nodes.empty() ? 1 : 2; }
+};
+
+// The corner nodes of a boundary face, counter-clockwise seen from outside.
+inline Triangle boundary_triangle(const TetMesh& mesh, BoundaryFace f) {
+  const auto& tet = mesh.tetrahedra[f.tetrahedron];
+  const auto& local = tetrahedron_faces[f.face];
+  return {tet[static_cast<std::size_t>(local[0])], tet[static_cast<std::size_t>(local[2])],
+          tet[static_cast<std::size_t>(local[1])]};
+}
+
+// The faces that belong to exactly one tetrahedron, ordered by tetrahedron and face. O(n log n).
+std::vector<BoundaryFace> find_boundary(const std::vector<Tetrahedron>& tetrahedra);
+
+// Corner nodes and triangles of the boundary; vertices are renumbered in the order of the nodes.
+SurfaceMesh boundary_surface(const TetMesh& mesh);
+
+// Sum of the volumes of the straight-edged tetrahedra.
+double total_volume(const TetMesh& mesh);
+
+}  // namespace scan2fea

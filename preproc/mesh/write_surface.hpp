@@ -1,0 +1,14 @@
+// Writes STL (binary), OBJ, PLY (binary, little-endian, double) and OFF.
+#pragma once
+
+#include <filesystem>
+
+#include "preproc/mesh/surface_mesh.hpp"
+
+namespace scan2fea {
+
+// The format is told by the extension (WrongUsage where it is unknown). Numbers round-trip, but for STL, whose format
+// holds 32-bit floats. Throws IoError; a file that stood there before is then untouched (see OutputFile).
+void write_surface(const SurfaceMesh& mesh, const std::filesystem::path& file);
+
+}  // namespace scan2fea

@@ -1,0 +1,142 @@
+#include "tests/analytic_meshes.hpp"
+
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <random>
+
+namespace scan2fea::analytic {
+namespace {
+
+using Cell = std::array<int, 3>;
+
+// The boundary of a set of grid cells, vertices shared.
+class CellSurface {
+ public:
+  explicit CellSurface(const Vec3& spacing) : spacing_(spacing) {}
+
+  void quad(const Cell& a, const Cell& b, const Cell& c, const Cell& d) {
+    const std::uint32_t i = vertex(a), j = vertex(b), k = vertex(c), l = vertex(d);
+    mesh_.triangles.push_back({i, j, k});
+    mesh_.triangles.push_back({i, k, l});
+  }
+
+  SurfaceMesh take() { return std::move(mesh_); }
+
+ private:
+  std::uint32_t vertex(const Cell& cell) {
+    const auto [it, added] = index_.try_emplace(cell, static_cast<std::uint32_t>(mesh_.vertices.size()));
+    if (added) mesh_.vertices.emplace_back(Vec3(cell[0], cell[1], cell[2]).cwiseProduct(spacing_));
+    return it->second;
+  }
+
+  Vec3 spacing_;
+  std::map<Cell, std::uint32_t> index_;
+  SurfaceMesh mesh_;
+};
+
+template <class Inside>
+SurfaceMesh voxel_surface(const Cell& count, const Vec3& spacing, Inside inside) {
+  CellSurface surface(spacing);
+  const auto filled = [&](int x, int y, int z) {
+    return x >= 0 && y >= 0 && z >= 0 && x < count[0] && y < count[1] && z < count[2] && inside(x, y, z);
+  };
+  for (int x = 0; x < count[0]; ++x)
+    for (int y = 0; y < count[1]; ++y)
+      for (int z = 0; z < count[2]; ++z) {
+        if (!filled(x, y, z)) continue;
+        const int X = x + 1, Y = y + 1, Z = z + 1;
+        if (!filled(x - 1, y, z)) surface.quad({x, y, z}, {x, y, Z}, {x, Y, Z}, {x, Y, z});
+        if (!filled(x + 1, y, z)) surface.quad({X, y, z}, {X, Y, z}, {X, Y, Z}, {X, y, Z});
+        if (!filled(x, y - 1, z)) surface.quad({x, y, z}, {X, y, z}, {X, y, Z}, {x, y, Z});
+        if (!filled(x, y + 1, z)) surface.quad({x, Y, z}, {x, Y, Z}, {X, Y, Z}, {X, Y, z});
+        if (!filled(x, y, z - 1)) surface.quad({x, y, z}, {x, Y, z}, {X, Y, z}, {X, y, z});
+        if (!filled(x, y, z + 1)) surface.quad({x, y, Z}, {X, y, Z}, {X, Y, Z}, {x, Y, Z});
+      }
+  return surface.take();
+}
+
+}  // namespace
+
+SurfaceMesh box(const Vec3& size, double edge_length) {
+  Cell count{};
+  Vec3 spacing;
+  for (int k = 0; k < 3; ++k) {
+    const int n = std::max(1, static_cast<int>(std::lround(size[k] / edge_length)));
+    count[static_cast<std::size_t>(k)] = n;
+    spacing[k] = size[k] / n;
+  }
+  return voxel_surface(count, spacing, [](int, int, int) { return true; });
+}
+
+SurfaceMesh slab_with_holes(int genus, double edge_length) {
+  const int n = std::max(1, static_cast<int>(std::lround(1 / edge_length)));
+  return voxel_surface({(2 * genus + 1) * n, 3 * n, n}, Vec3::Constant(1.0 / n),
+                       [n](int x, int y, int) { return (x / n) % 2 == 0 || (y / n) != 1; });
+}
+
+SurfaceMesh sphere(double radius, int levels) {
+  const double g = std::numbers::phi;
+  SurfaceMesh mesh;
+  mesh.vertices = {{-1, g, 0}, {1, g, 0},   {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g},
+                   {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
+  mesh.triangles = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                    {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                    {3, 8, 9},  {4, 9, 5},  {2, 4, 11},  {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
+  for (int level = 0; level < levels; ++level) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middle;
+    const auto midpoint = [&](std::uint32_t a, std::uint32_t b) {
+      const auto [it, added] = middle.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(mesh.vertices.size()));
+      if (added) mesh.vertices.push_back(0.5 * (mesh.vertices[a] + mesh.vertices[b]));
+      return it->second;
+    };
+    std::vector<Triangle> finer;
+    for (const auto& [a, b, c] : mesh.triangles) {
+      const std::uint32_t ab = midpoint(a, b), bc = midpoint(b, c), ca = midpoint(c, a);
+      finer.insert(finer.end(), {{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}});
+    }
+    mesh.triangles = std::move(finer);
+    for (Vec3& v : mesh.vertices) v.normalize();
+  }
+  for (Vec3& v : mesh.vertices) v = radius * v.normalized();
+  return mesh;
+}
+
+SurfaceMesh torus(double major_radius, double minor_radius, int around, int across) {
+  SurfaceMesh mesh;
+  const auto index = [&](int i, int j) {
+    return static_cast<std::uint32_t>((i % around) * across + (j % across));
+  };
+  for (int i = 0; i < around; ++i)
+    for (int j = 0; j < across; ++j) {
+      const double u = 2 * std::numbers::pi * i / around, v = 2 * std::numbers::pi * j / across;
+      const double r = major_radius + minor_radius * std::cos(v);
+      mesh.vertices.emplace_back(r * std::cos(u), r * std::sin(u), minor_radius * std::sin(v));
+      mesh.triangles.push_back({index(i, j), index(i + 1, j), index(i + 1, j + 1)});
+      mesh.triangles.push_back({index(i, j), index(i + 1, j + 1), index(i, j + 1)});
+    }
+  return mesh;
+}
+
+SurfaceMesh join(const SurfaceMesh& a, const SurfaceMesh& b) {
+  SurfaceMesh both = a;
+  both.vertices.insert(both.vertices.end(), b.vertices.begin(), b.vertices.end());
+  const auto offset = static_cast<std::uint32_t>(a.vertices.size());
+  for (const Triangle& t : b.triangles) both.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
+  return both;
+}
+
+SurfaceMesh reversed(SurfaceMesh mesh) {
+  for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+  return mesh;
+}
+
+SurfaceMesh noisy(SurfaceMesh mesh, double sigma, unsigned seed) {
+  std::mt19937 generator(seed);
+  std::normal_distribution<double> noise(0, sigma);
+  for (Vec3& v : mesh.vertices)
+    for (int k = 0; k < 3; ++k) v[k] += noise(generator);
+  return mesh;
+}
+
+}  // namespace scan2fea::analytic

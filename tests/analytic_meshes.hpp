@@ -1,0 +1,30 @@
+// Closed surfaces whose volume, area and topology are known, for tests.
+#pragma once
+
+#include "preproc/mesh/surface_mesh.hpp"
+
+namespace scan2fea::analytic {
+
+// Axis-aligned box from the origin, each side split into squares of about `edge_length`, each square into two
+// triangles.
+SurfaceMesh box(const Vec3& size, double edge_length);
+
+// Icosahedron subdivided `levels` times, vertices on the sphere: 20 * 4^levels triangles.
+SurfaceMesh sphere(double radius, int levels);
+
+// A torus about z with `around` x `across` quads, split into triangles.
+SurfaceMesh torus(double major_radius, double minor_radius, int around, int across);
+
+// A slab of `genus` square holes in a row, 1 thick, each square of side 1 and split into (1/edge_length)^2.
+SurfaceMesh slab_with_holes(int genus, double edge_length);
+
+// Both surfaces in one mesh, vertices of `b` after those of `a`.
+SurfaceMesh join(const SurfaceMesh& a, const SurfaceMesh& b);
+
+// The same surface, inside out.
+SurfaceMesh reversed(SurfaceMesh mesh);
+
+// Vertices moved by Gaussian noise of standard deviation `sigma`; reproducible by seed.
+SurfaceMesh noisy(SurfaceMesh mesh, double sigma, unsigned seed);
+
+}  // namespace scan2fea::analytic
