@@ -1,0 +1,177 @@
+#include "preproc/volume/run_tetgen.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fcntl.h>
+#include <spawn.h>
+#include <string>
+#include <sys/wait.h>
+#include <system_error>
+#include <thread>
+#include <unistd.h>
+#include <vector>
+
+extern char** environ;
+
+namespace scan2fea {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr const char* worker_name = "scan2fea-tetgen";
+
+MeshingFailed failed(std::string what, std::string value, std::string limit, std::string advice) {
+  return MeshingFailed({.what = std::move(what),
+                        .where = {},
+                        .value = std::move(value),
+                        .limit = std::move(limit),
+                        .advice = std::move(advice)});
+}
+
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string pattern = (fs::temp_directory_path() / "scan2fea-XXXXXX").string();
+    if (!::mkdtemp(pattern.data()))
+      throw IoError({.what = "cannot make a temporary folder",
+                     .where = pattern,
+                     .value = std::strerror(errno),
+                     .limit = {},
+                     .advice = "set TMPDIR to a writable folder"});
+    path_ = pattern;
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+fs::path find_worker(const TetgenLimits& limits) {
+  if (limits.worker) return *limits.worker;
+  std::error_code error;
+  const fs::path beside = fs::read_symlink("/proc/self/exe", error).parent_path() / worker_name;
+  if (!error && ::access(beside.c_str(), X_OK) == 0) return beside;
+  const fs::path installed = fs::path(SCAN2FEA_INSTALLED_WORKER_FOLDER) / worker_name;
+  if (::access(installed.c_str(), X_OK) == 0) return installed;
+  throw failed("the TetGen worker is missing", "neither " + beside.string() + " nor " + installed.string(), {},
+               "install the worker beside the command");
+}
+
+// A child that does not outlive this object.
+class Child {
+ public:
+  Child(const fs::path& executable, std::vector<std::string> arguments) {
+    std::vector<char*> argv;
+    std::string name = executable.string();
+    argv.push_back(name.data());
+    for (std::string& argument : arguments) argv.push_back(argument.data());
+    argv.push_back(nullptr);
+
+    // TetGen prints even when told to be quiet, and the command's stdout belongs to its results.
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+      posix_spawn_file_actions_addopen(&actions, stream, "/dev/null", stream == STDIN_FILENO ? O_RDONLY : O_WRONLY, 0);
+    const int error = ::posix_spawn(&pid_, executable.c_str(), &actions, nullptr, argv.data(), environ);
+    posix_spawn_file_actions_destroy(&actions);
+    if (error != 0) {
+      pid_ = -1;
+      throw failed("the TetGen worker does not start", name + ": " + std::strerror(error), {},
+                   "check that the file is executable");
+    }
+  }
+  ~Child() {
+    if (pid_ < 0) return;
+    ::kill(pid_, SIGKILL);
+    while (::waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {
+    }
+  }
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+
+  // The exit status, 128 + signal if it was killed, nothing while it runs.
+  std::optional<int> ended() {
+    int status = 0;
+    if (::waitpid(pid_, &status, WNOHANG) != pid_) return std::nullopt;
+    pid_ = -1;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  }
+
+ private:
+  pid_t pid_ = -1;
+};
+
+std::string seconds_text(double seconds) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.3g s", seconds);
+  return text.data();
+}
+
+int wait_for(Child& child, const TetgenLimits& limits, const Progress& progress) {
+  constexpr std::chrono::milliseconds pause(2), between_reports(50);
+  const Clock::time_point start = Clock::now();
+  for (Clock::time_point reported = start;; std::this_thread::sleep_for(pause)) {
+    if (const auto status = child.ended()) return *status;
+    const Clock::time_point now = Clock::now();
+    const std::chrono::duration<double> elapsed = now - start;
+    if (elapsed > limits.time)
+      throw failed("TetGen exceeded the time limit", seconds_text(elapsed.count()), seconds_text(limits.time.count()),
+                   "a longer --time-limit or a coarser mesh");
+    if (now - reported < between_reports) continue;
+    reported = now;
+    // How far TetGen is, it does not tell: half way after ten seconds, never quite done.
+    progress("tetgen", elapsed.count() / (elapsed.count() + 10));
+  }
+}
+
+[[noreturn]] void report(int status, const TetgenLimits& limits) {
+  const std::string limit =
+      limits.memory_bytes ? std::to_string(*limits.memory_bytes >> 20) + " MiB" : std::string("the machine's memory");
+  switch (static_cast<TetgenStatus>(status)) {
+    case TetgenStatus::out_of_memory:
+      throw failed("TetGen ran out of memory", {}, limit, "a coarser mesh or a higher memory limit");
+    case TetgenStatus::self_intersection:
+      throw failed("TetGen found that the surface intersects itself", {}, {},
+                   "scan2fea repair, or scan2fea check to see where");
+    case TetgenStatus::tiny_feature:
+      throw failed("TetGen found a feature too small to mesh", {}, {}, "scan2fea repair, or larger triangles");
+    case TetgenStatus::close_facets:
+      throw failed("TetGen found two facets that nearly touch", {}, {}, "scan2fea repair, or smaller triangles there");
+    case TetgenStatus::wrong_input:
+      throw failed("TetGen refused its input", {}, {}, "scan2fea check on the surface");
+    case TetgenStatus::file_error:
+      throw failed("the TetGen worker could not read its input or write its output", {}, {},
+                   "free space in the temporary folder, or set TMPDIR to another");
+    default:
+      break;
+  }
+  throw failed("TetGen crashed",
+               status > 128 ? "signal " + std::to_string(status - 128) : "status " + std::to_string(status), {},
+               "scan2fea check on the surface: shells that cross or touch are the usual cause");
+}
+
+}  // namespace
+
+TetgenOutput run_tetgen(const TetgenInput& input, const TetgenLimits& limits, const Progress& progress) {
+  const fs::path worker = find_worker(limits);
+  const TemporaryFolder folder;
+  const fs::path in = folder.path() / "in", out = folder.path() / "out";
+  write_exchange(input, in);
+  Child child(worker, {in.string(), out.string(), std::to_string(limits.memory_bytes.value_or(0))});
+  if (const int status = wait_for(child, limits, progress); status != 0) report(status, limits);
+  return read_tetgen_output(out);
+}
+
+}  // namespace scan2fea

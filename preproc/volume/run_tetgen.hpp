@@ -1,0 +1,28 @@
+// Runs TetGen in a child process that can neither crash, hang nor starve the command.
+#pragma once
+
+#include "preproc/mesh/progress.hpp"
+#include "preproc/volume/tetgen_exchange.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+namespace scan2fea {
+
+struct TetgenLimits {
+  // Wall time, after which the child is killed. TetGen needs about 20 s for a million tetrahedra.
+  std::chrono::duration<double> time{3600};
+  // Address space of the child in bytes. TetGen needs about 1 kB per tetrahedron. None: the machine's.
+  std::optional<std::uint64_t> memory_bytes;
+  // The worker executable. None: `scan2fea-tetgen` beside the running executable, or where it was installed.
+  std::optional<std::filesystem::path> worker;
+};
+
+// Writes the input to a temporary folder of its own (removed in any case), starts the worker, waits, and reads its
+// output. `progress` is asked some twenty times a second; when it cancels, the child is killed.
+// Throws MeshingFailed with one line for every way in which the child can fail.
+TetgenOutput run_tetgen(const TetgenInput& input, const TetgenLimits& limits = {}, const Progress& progress = {});
+
+}  // namespace scan2fea

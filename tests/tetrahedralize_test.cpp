@@ -1,0 +1,200 @@
+#include "preproc/volume/tetrahedralize.hpp"
+
+#include "preproc/mesh/error.hpp"
+#include "tests/analytic_meshes.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace scan2fea {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+SurfaceMesh moved(SurfaceMesh mesh, const Vec3& by) {
+  for (Vec3& v : mesh.vertices) v += by;
+  return mesh;
+}
+
+Triangle starting_at_least(const Triangle& t) {
+  if (t[0] < t[1] && t[0] < t[2]) return t;
+  return t[1] < t[2] ? Triangle{t[1], t[2], t[0]} : Triangle{t[2], t[0], t[1]};
+}
+
+void expect_valid(const SurfaceMesh& surface, const TetMesh& mesh) {
+  ASSERT_EQ(mesh.boundary.size(), surface.triangles.size());
+  for (std::size_t i = 0; i < surface.triangles.size(); ++i)
+    ASSERT_EQ(starting_at_least(boundary_triangle(mesh, mesh.boundary[i])), starting_at_least(surface.triangles[i]))
+        << i;
+  ASSERT_EQ(find_boundary(mesh.tetrahedra).size(), surface.triangles.size());
+  for (std::size_t i = 0; i < surface.vertices.size(); ++i) ASSERT_EQ(mesh.nodes[i], surface.vertices[i]) << i;
+  for (const Tetrahedron& t : mesh.tetrahedra) {
+    const Vec3& a = mesh.nodes[t[0]];
+    ASSERT_GT((mesh.nodes[t[1]] - a).cross(mesh.nodes[t[2]] - a).dot(mesh.nodes[t[3]] - a), 0);
+  }
+  EXPECT_NEAR(total_volume(mesh), enclosed_volume(surface), 1e-10 * enclosed_volume(surface));
+}
+
+TEST(Tetrahedralize, KeepsTheBoundaryTriangleByTriangle) {
+  for (const SurfaceMesh& surface :
+       {analytic::sphere(2, 3), analytic::box({1, 2, 3}, 0.4), analytic::torus(3, 1, 40, 16),
+        analytic::slab_with_holes(2, 0.25), analytic::noisy(analytic::sphere(1, 3), 0.004, 1)})
+    expect_valid(surface, tetrahedralize(surface).mesh);
+}
+
+TEST(Tetrahedralize, ThinPlateKeepsItsBoundary) {
+  const SurfaceMesh plate = analytic::box({20, 20, 0.5}, 1);
+  expect_valid(plate, tetrahedralize(plate).mesh);
+}
+
+TEST(Tetrahedralize, FarFromTheOriginStillAddsUp) {
+  const SurfaceMesh surface = moved(analytic::sphere(1, 2), {1e4, -1e4, 1e4});
+  expect_valid(surface, tetrahedralize(surface).mesh);
+}
+
+TEST(Tetrahedralize, CavityStaysEmptyAndABodyInItIsFilled) {
+  const SurfaceMesh hollow = analytic::join(analytic::sphere(3, 3), analytic::reversed(analytic::sphere(2, 3)));
+  expect_valid(hollow, tetrahedralize(hollow).mesh);
+  const SurfaceMesh with_core = analytic::join(hollow, analytic::sphere(1, 2));
+  expect_valid(with_core, tetrahedralize(with_core).mesh);
+}
+
+TEST(Tetrahedralize, SeparateBodiesAreAllFilled) {
+  const SurfaceMesh two = analytic::join(analytic::box({1, 1, 1}, 0.5), moved(analytic::sphere(1, 2), {5, 0, 0}));
+  expect_valid(two, tetrahedralize(two).mesh);
+}
+
+TEST(Tetrahedralize, MaxVolumeIsKept) {
+  const SurfaceMesh surface = analytic::box({1, 1, 1}, 0.5);
+  const TetMesh coarse = tetrahedralize(surface).mesh;
+  TetrahedralizeOptions options;
+  options.max_volume = 1e-3;
+  const TetMesh fine = tetrahedralize(surface, options).mesh;
+  expect_valid(surface, fine);
+  EXPECT_GT(fine.tetrahedra.size(), coarse.tetrahedra.size());
+}
+
+TEST(Tetrahedralize, SplitBoundaryNamesTheTriangleThatItLiesOn) {
+  const SurfaceMesh surface = analytic::box({10, 1, 1}, 10);
+  TetrahedralizeOptions options;
+  options.max_volume = 0.1;
+  options.split_boundary = true;
+  const TetrahedralizeResult result = tetrahedralize(surface, options);
+  ASSERT_EQ(result.boundary_parent.size(), result.mesh.boundary.size());
+  ASSERT_GT(result.mesh.boundary.size(), surface.triangles.size());
+  EXPECT_EQ(find_boundary(result.mesh.tetrahedra).size(), result.mesh.boundary.size());
+  EXPECT_NEAR(total_volume(result.mesh), 10, 1e-9);
+  for (std::size_t i = 0; i < result.mesh.boundary.size(); ++i) {
+    const Triangle piece = boundary_triangle(result.mesh, result.mesh.boundary[i]);
+    const Triangle& parent = surface.triangles[result.boundary_parent[i]];
+    const Vec3 normal = area_vector(surface, parent).normalized();
+    for (const std::uint32_t v : piece)
+      EXPECT_NEAR((result.mesh.nodes[v] - surface.vertices[parent[0]]).dot(normal), 0, 1e-9);
+  }
+}
+
+// What a failing call says; it must be one line.
+std::string failure(const SurfaceMesh& surface, const TetrahedralizeOptions& options = {}) {
+  try {
+    tetrahedralize(surface, options);
+  } catch (const MeshingFailed& error) {
+    EXPECT_THAT(error.what(), Not(HasSubstr("\n")));
+    EXPECT_EQ(error.exit_code(), 5);
+    return error.what();
+  }
+  ADD_FAILURE() << "expected MeshingFailed";
+  return {};
+}
+
+TEST(Tetrahedralize, SelfIntersectionIsReported) {
+  EXPECT_THAT(failure(analytic::join(analytic::sphere(1, 2), moved(analytic::sphere(1, 2), {0.9, 0.01, 0.02}))),
+              HasSubstr("intersects itself"));
+}
+
+TEST(Tetrahedralize, ShellsThatFaceTheSameWayAreReported) {
+  EXPECT_THAT(failure(analytic::join(analytic::sphere(3, 2), analytic::sphere(1, 2))), HasSubstr("same way"));
+}
+
+TEST(Tetrahedralize, InsideOutIsReported) {
+  EXPECT_THAT(failure(analytic::reversed(analytic::sphere(1, 2))), HasSubstr("inside out"));
+}
+
+TEST(Tetrahedralize, OpenSurfaceIsReported) {
+  SurfaceMesh open = analytic::sphere(1, 2);
+  open.triangles.pop_back();
+  EXPECT_NE(failure(open), "");
+}
+
+std::filesystem::path script(const std::string& body) {
+  const auto path = std::filesystem::path(testing::TempDir()) / "worker.sh";
+  std::ofstream(path) << "#!/bin/sh\n" << body << "\n";
+  std::filesystem::permissions(path, std::filesystem::perms::owner_all);
+  return path;
+}
+
+TEST(TetrahedralizeChild, CrashIsReported) {
+  TetrahedralizeOptions options;
+  options.limits.worker = script("kill -SEGV $$");
+  EXPECT_THAT(failure(analytic::sphere(1, 1), options), HasSubstr("signal 11"));
+}
+
+TEST(TetrahedralizeChild, WithoutOutputIsReported) {
+  TetrahedralizeOptions options;
+  options.limits.worker = script("exit 0");
+  EXPECT_THROW(tetrahedralize(analytic::sphere(1, 1), options), Error);
+}
+
+TEST(TetrahedralizeChild, TimeLimitKillsIt) {
+  TetrahedralizeOptions options;
+  options.limits.worker = script("exec sleep 60");
+  options.limits.time = std::chrono::milliseconds(100);
+  EXPECT_THAT(failure(analytic::sphere(1, 1), options), HasSubstr("time limit"));
+}
+
+TEST(TetrahedralizeChild, MemoryLimitIsReported) {
+  TetrahedralizeOptions options;
+  options.max_volume = 1e-5;
+  options.limits.memory_bytes = std::uint64_t{64} << 20;
+  EXPECT_THAT(failure(analytic::sphere(1, 3), options), HasSubstr("memory"));
+}
+
+TEST(TetrahedralizeChild, MissingWorkerIsReported) {
+  TetrahedralizeOptions options;
+  options.limits.worker = "/nonexistent/worker";
+  EXPECT_THAT(failure(analytic::sphere(1, 1), options), HasSubstr("worker"));
+}
+
+TEST(TetrahedralizeChild, InterruptKillsIt) {
+  TetrahedralizeOptions options;
+  options.limits.worker = script("exec sleep 60");
+  EXPECT_THROW(tetrahedralize(analytic::sphere(1, 1), options, Progress([](auto, double) { return false; })),
+               Cancelled);
+}
+
+TEST(TetrahedralizeChild, LeavesNoTemporaryFolder) {
+  const auto count = [] {
+    std::size_t n = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::temp_directory_path()))
+      if (entry.path().filename().string().starts_with("scan2fea-")) ++n;
+    return n;
+  };
+  const auto folder = std::filesystem::path(testing::TempDir()) / "scan2fea_child_test";
+  std::filesystem::create_directories(folder);
+  const char* before = std::getenv("TMPDIR");
+  const std::string saved = before ? before : "";
+  setenv("TMPDIR", folder.c_str(), 1);
+  tetrahedralize(analytic::sphere(1, 1));
+  TetrahedralizeOptions crash;
+  crash.limits.worker = script("kill -SEGV $$");
+  failure(analytic::sphere(1, 1), crash);
+  EXPECT_EQ(count(), 0u);
+  before ? setenv("TMPDIR", saved.c_str(), 1) : unsetenv("TMPDIR");
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace scan2fea
