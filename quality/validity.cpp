@@ -1,0 +1,130 @@
+#include "quality/validity.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+namespace scan2fea {
+namespace {
+
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
+
+  std::uint32_t root(std::uint32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(std::uint32_t i, std::uint32_t j) {
+    i = root(i);
+    j = root(j);
+    if (i != j) parent_[std::max(i, j)] = std::min(i, j);
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+// A face's side from its corner k to corner k + 1, seen from the edge's vertex of smaller index.
+struct Side {
+  std::uint32_t larger_vertex;
+  std::uint32_t from_corner;     // 3 * face + k
+  std::uint32_t smaller_corner;  // the corner at the vertex of smaller index
+  std::uint32_t larger_corner;
+
+  bool runs_upwards() const { return from_corner == smaller_corner; }
+};
+
+// The sides of all faces by their smaller vertex: those of v are sides[first[v]] to sides[first[v + 1]], sorted by the
+// larger vertex so that the sides of one edge are adjacent.
+struct SidesByVertex {
+  std::vector<std::uint32_t> first;
+  std::vector<Side> sides;
+};
+
+bool is_degenerate(const Triangle& t) {
+  return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+}
+
+SidesByVertex sort_sides(const SurfaceMesh& mesh) {
+  SidesByVertex sorted;
+  auto& first = sorted.first;
+  first.assign(mesh.vertices.size() + 1, 0);
+  for (const Triangle& t : mesh.triangles) {
+    if (is_degenerate(t)) continue;
+    for (std::size_t k = 0; k < 3; ++k) ++first[std::min(t[k], t[(k + 1) % 3]) + 1];
+  }
+  std::partial_sum(first.begin(), first.end(), first.begin());
+
+  sorted.sides.resize(first.back());
+  std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
+  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+    const Triangle& t = mesh.triangles[f];
+    if (is_degenerate(t)) continue;
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const std::uint32_t from = t[k], to = t[(k + 1) % 3];
+      const std::uint32_t from_corner = 3 * f + k, to_corner = 3 * f + (k + 1) % 3;
+      sorted.sides[next[std::min(from, to)]++] =
+          from < to ? Side{to, from_corner, from_corner, to_corner} : Side{from, from_corner, to_corner, from_corner};
+    }
+  }
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+    std::sort(sorted.sides.begin() + first[v], sorted.sides.begin() + first[v + 1], [](const Side& a, const Side& b) {
+      return a.larger_vertex != b.larger_vertex ? a.larger_vertex < b.larger_vertex : a.from_corner < b.from_corner;
+    });
+  return sorted;
+}
+
+}  // namespace
+
+SurfaceValidity check_validity(const SurfaceMesh& mesh) {
+  SurfaceValidity validity;
+  DisjointSets faces(mesh.triangles.size());
+  DisjointSets corners(3 * mesh.triangles.size());  // joined where two faces share an edge at the corner
+  const auto [first, sides] = sort_sides(mesh);
+
+  long edges = 0;
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    for (std::size_t i = first[v]; i < first[v + 1];) {
+      const Side& side = sides[i];
+      long faces_here = 0, upwards = 0;
+      for (; i < first[v + 1] && sides[i].larger_vertex == side.larger_vertex; ++i) {
+        ++faces_here;
+        upwards += sides[i].runs_upwards();
+        faces.join(side.from_corner / 3, sides[i].from_corner / 3);
+        corners.join(side.smaller_corner, sides[i].smaller_corner);
+        corners.join(side.larger_corner, sides[i].larger_corner);
+      }
+      ++edges;
+      validity.boundary_edges += faces_here == 1;
+      validity.non_manifold_edges += faces_here > 2;
+      validity.misoriented_edges += faces_here > 1 && 2 * upwards != faces_here;
+    }
+  }
+
+  long face_count = 0;
+  std::vector<std::uint32_t> fans(mesh.vertices.size(), 0);
+  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+    const Triangle& t = mesh.triangles[f];
+    if (is_degenerate(t)) {
+      ++validity.degenerate_faces;
+      continue;
+    }
+    ++face_count;
+    validity.components += faces.root(f) == f;
+    for (std::uint32_t k = 0; k < 3; ++k) fans[t[k]] += corners.root(3 * f + k) == 3 * f + k;
+  }
+  for (const std::uint32_t count : fans) {
+    validity.unused_vertices += count == 0;
+    validity.non_manifold_vertices += count > 1;
+  }
+
+  if (validity.closed() && validity.manifold()) {
+    const long vertices = static_cast<long>(mesh.vertices.size() - validity.unused_vertices);
+    const long euler = vertices - edges + face_count;  // 2 * components - 2 * genus
+    validity.genus = static_cast<int>(static_cast<long>(validity.components) - euler / 2);
+  }
+  return validity;
+}
+
+}  // namespace scan2fea
