@@ -1,0 +1,17 @@
+// For points near a mesh, the mesh's vertices to start a search from.
+#pragma once
+
+#include "preproc/mesh/surface_mesh.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace scan2fea {
+
+// Per point the vertex of `among` that is nearest, where normals that disagree by more than 90 degrees count like a
+// distance of `spacing` (so that the two sides of a thin wall are told apart). Only vertices that a triangle uses are
+// considered; the mesh must have one. k-d tree: O((n + m) log m).
+std::vector<std::uint32_t> nearest_vertices(const std::vector<Vec3>& points, const std::vector<Vec3>& normals,
+                                            const SurfaceMesh& among, double spacing);
+
+}  // namespace scan2fea

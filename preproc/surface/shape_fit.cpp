@@ -1,0 +1,288 @@
+#include "preproc/surface/shape_fit.hpp"
+
+#include "preproc/surface/fit_moments.hpp"
+#include "preproc/surface/locate.hpp"
+#include "preproc/surface/nearest_vertices.hpp"
+#include "preproc/surface/sample_surface.hpp"
+
+#include <Eigen/LU>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <string>
+
+namespace scan2fea {
+namespace {
+
+using Range = tbb::blocked_range<std::size_t>;
+
+// A step of more than this part of the smallest edge or height around a vertex could turn a triangle over.
+constexpr double longest_step = 0.3;
+// More samples a face than this do not improve the fit.
+constexpr std::size_t most_samples_per_face = 24;
+// Scan triangles longer than this part of the mean edge are subdivided, so that each face gets samples.
+constexpr double longest_scan_edge = 0.7;
+// Residuals beyond this part of the mean edge are suspected of a wrong location.
+constexpr double suspicious_part_of_edge = 0.2;
+
+constexpr double third = 1. / 3;
+constexpr std::array<std::array<double, 3>, 4> face_samples{
+    {{third, third, third}, {2. / 3, 1. / 6, 1. / 6}, {1. / 6, 2. / 3, 1. / 6}, {1. / 6, 1. / 6, 2. / 3}}};
+
+void check(const SurfaceMesh& mesh, const ReferenceSurface& scan, const ShapeFitOptions& options) {
+  const auto require = [](bool held, const char* what, double value, const char* limit) {
+    if (!held)
+      throw WrongUsage(
+          {.what = what, .where = "shape and fit", .value = std::to_string(value), .limit = limit, .advice = ""});
+  };
+  require(options.fidelity_of_diagonal > 0 && options.fidelity_of_diagonal < 0.1, "fidelity out of range",
+          options.fidelity_of_diagonal, "0 to 0.1 of the diagonal");
+  require(options.rounds >= 1, "too few rounds", options.rounds, "at least 1");
+  require(options.sweeps >= 1, "too few sweeps", options.sweeps, "at least 1");
+  require(!options.lift_tail_of_diagonal || *options.lift_tail_of_diagonal > 0, "tail distance out of range",
+          options.lift_tail_of_diagonal.value_or(0), "above 0");
+  require(options.constraints.empty() || options.constraints.size() == mesh.vertices.size(),
+          "constraints for another number of vertices", static_cast<double>(options.constraints.size()),
+          "none, or one a vertex");
+  if (mesh.triangles.empty() || scan.mesh.triangles.empty()) {
+    throw InvalidInput({.what = "no triangles to fit", .where = "", .value = "", .limit = "", .advice = ""});
+  }
+}
+
+// Items by the face they lie on: items of face f are order[first[f]] .. order[first[f + 1]].
+struct ByFace {
+  std::vector<std::uint32_t> first;
+  std::vector<std::uint32_t> order;
+};
+
+ByFace sort_by_face(const std::vector<Location>& locations, std::size_t faces) {
+  ByFace by{std::vector<std::uint32_t>(faces + 1, 0), std::vector<std::uint32_t>(locations.size())};
+  for (const Location& at : locations) ++by.first[at.face + 1];
+  std::partial_sum(by.first.begin(), by.first.end(), by.first.begin());
+  std::vector<std::uint32_t> next(by.first.begin(), by.first.end() - 1);
+  for (std::uint32_t s = 0; s < locations.size(); ++s) by.order[next[locations[s].face]++] = s;
+  return by;
+}
+
+class Fitter {
+ public:
+  Fitter(SurfaceMesh& mesh, const ReferenceSurface& scan, const ShapeFitOptions& options)
+      : mesh_(mesh),
+        scan_(scan),
+        options_(options),
+        stars_(mesh),
+        neighbours_(face_neighbours(mesh, stars_)),
+        colours_(colour_vertices(mesh, stars_)),
+        mean_edge_(std::sqrt(4 / std::numbers::sqrt3 * scan.area / static_cast<double>(mesh.triangles.size()))),
+        forward_(sample_surface(scan, longest_scan_edge * mean_edge_, most_samples_per_face * mesh.triangles.size())),
+        fits_(mesh.triangles.size()) {
+    const double unit = options.fidelity_of_diagonal * scan.diagonal;
+    weight_unit_ = static_cast<double>(mesh.triangles.size()) / (scan.area * unit * unit);
+    start_locations();
+  }
+
+  // Locates all samples anew and condenses them.
+  void locate_samples(ShapeFitResult& result) {
+    normals_ = face_normals(mesh_);
+    const WalkableMesh on{mesh_, stars_, neighbours_, normals_};
+    tbb::parallel_for(Range(0, locations_.size(), 1024), [&](const Range& range) {
+      for (std::size_t s = range.begin(); s < range.end(); ++s) {
+        locations_[s] = locate(on, forward_.samples[s], locations_[s].face, suspicious_part_of_edge * mean_edge_);
+      }
+    });
+    const ByFace by_face = sort_by_face(locations_, mesh_.triangles.size());
+    if (options_.both_sides) locate_faces(by_face);
+    reset_and_condense(by_face);
+    measure(result);
+  }
+
+  // One Gauss-Seidel sweep of Newton steps over all free vertices; returns the largest step.
+  double sweep() {
+    std::vector<double> steps(mesh_.vertices.size(), 0);
+    for (const std::vector<std::uint32_t>& colour : colours_) {
+      tbb::parallel_for(Range(0, colour.size(), 64), [&](const Range& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+          if (is_free(colour[i])) steps[colour[i]] = move(colour[i]);
+        }
+      });
+    }
+    return *std::max_element(steps.begin(), steps.end());
+  }
+
+ private:
+  bool is_free(std::uint32_t v) const {
+    return options_.constraints.empty() || options_.constraints[v] == VertexConstraint::free;
+  }
+
+  void start_locations() {
+    normals_ = face_normals(mesh_);
+    const std::vector<std::uint32_t> nearest =
+        options_.nearest_vertex_of_scan_vertex
+            ? *options_.nearest_vertex_of_scan_vertex
+            : nearest_vertices(scan_.mesh.vertices, scan_.vertex_normals, mesh_, mean_edge_);
+    const WalkableMesh on{mesh_, stars_, neighbours_, normals_};
+    locations_.resize(forward_.samples.size());
+    tbb::parallel_for(Range(0, locations_.size(), 1024), [&](const Range& range) {
+      for (std::size_t s = range.begin(); s < range.end(); ++s) {
+        const std::uint32_t v = nearest[forward_.vertex[s]];
+        locations_[s] = descend_to_nearest(on, forward_.samples[s], stars_.corners(v).front() / 3);
+      }
+    });
+  }
+
+  void locate_faces(const ByFace& by_face);
+
+  double lift(double squared_distance) const {
+    if (!options_.lift_tail_of_diagonal) return 1;
+    const double tail = *options_.lift_tail_of_diagonal * scan_.diagonal;
+    const double ratio = squared_distance / (tail * tail);
+    return std::min(1 + ratio * ratio, options_.most_lift);
+  }
+
+  void reset_and_condense(const ByFace& by_face) {
+    located_ = mesh_.vertices;
+    const double share = options_.both_sides ? 0.5 : 1.0;
+    tbb::parallel_for(Range(0, fits_.size(), 128), [&](const Range& range) {
+      for (std::size_t f = range.begin(); f < range.end(); ++f) {
+        FaceFit fit;
+        fit.normal = normals_[f];
+        for (std::uint32_t k = by_face.first[f]; k < by_face.first[f + 1]; ++k) {
+          const std::uint32_t s = by_face.order[k];
+          const Vec3 to_target = forward_.samples[s].point - point_at(mesh_, locations_[s]);
+          const double w = share * weight_unit_ * forward_.samples[s].weight * lift(to_target.squaredNorm());
+          add_sample(fit, locations_[s].barycentric, to_target, w, locations_[s].clamped);
+        }
+        if (options_.both_sides) {
+          const double area = area_vector(mesh_, mesh_.triangles[f]).norm() / 2;
+          for (std::size_t k = 0; k < face_samples.size(); ++k) {
+            const Vec3 on_scan = point_at(scan_.mesh, on_scan_[face_samples.size() * f + k]);
+            const Vec3 to_target = on_scan - point_at(mesh_, {static_cast<std::uint32_t>(f), false, face_samples[k]});
+            add_sample(fit, face_samples[k], to_target, share * weight_unit_ * area / 4 * lift(to_target.squaredNorm()),
+                       false);
+          }
+        }
+        fits_[f] = fit;
+      }
+    });
+  }
+
+  void measure(ShapeFitResult& result) const {
+    double sum = 0;
+    double total = 0;
+    double largest = 0;
+    for (std::size_t s = 0; s < locations_.size(); ++s) {
+      const double squared = (forward_.samples[s].point - point_at(mesh_, locations_[s])).squaredNorm();
+      sum += forward_.samples[s].weight * squared;
+      total += forward_.samples[s].weight;
+      largest = std::max(largest, squared);
+    }
+    result.rms_distance = std::sqrt(sum / total);
+    result.largest_distance = std::sqrt(largest);
+    result.samples = locations_.size();
+  }
+
+  double move(std::uint32_t v) {
+    Vec3 gradient = Vec3::Zero();
+    Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
+    const Vec3 p = mesh_.vertices[v];
+    double least_squared_length = std::numeric_limits<double>::infinity();
+    for (const std::uint32_t corner : stars_.corners(v)) {
+      const std::uint32_t f = corner / 3;
+      const std::size_t i = corner % 3;
+      const Triangle& t = mesh_.triangles[f];
+      const Vec3& a = mesh_.vertices[t[(i + 1) % 3]];
+      const Vec3& b = mesh_.vertices[t[(i + 2) % 3]];
+      const double height_squared = (a - p).cross(b - p).squaredNorm() / (b - a).squaredNorm();
+      if (!(height_squared > 0)) return 0;
+      least_squared_length = std::min({least_squared_length, height_squared, (a - p).squaredNorm()});
+      const Derivatives d = shape_energy(options_.shape, p, a, b);
+      gradient += d.gradient;
+      hessian += d.hessian;
+      const std::array<Vec3, 3> moved{mesh_.vertices[t[0]] - located_[t[0]], mesh_.vertices[t[1]] - located_[t[1]],
+                                      mesh_.vertices[t[2]] - located_[t[2]]};
+      add_derivatives(fits_[f], i, moved, gradient, hessian);
+    }
+    // The Hessian is positive semi-definite; where nothing holds a vertex along some direction it stays put there.
+    hessian.diagonal().array() += 1e-9 * hessian.trace();
+    Vec3 step = -(hessian.inverse() * gradient);
+    const double limit = longest_step * std::sqrt(least_squared_length);
+    const double length = step.norm();
+    if (!std::isfinite(length)) return 0;
+    if (length > limit) step *= limit / length;
+    mesh_.vertices[v] = p + step;
+    return std::min(length, limit);
+  }
+
+  SurfaceMesh& mesh_;
+  const ReferenceSurface& scan_;
+  const ShapeFitOptions& options_;
+  VertexStars stars_;
+  std::vector<Triangle> neighbours_;
+  std::vector<std::vector<std::uint32_t>> colours_;
+  double mean_edge_;
+  double weight_unit_ = 0;
+  SurfaceSamples forward_;
+  std::vector<Vec3> normals_;
+  std::vector<Location> locations_;  // of the scan's samples on the mesh
+  std::vector<Location> on_scan_;    // of the mesh's samples on the scan, four a face
+  std::vector<Vec3> located_;        // the vertices when the samples were located
+  std::vector<FaceFit> fits_;
+};
+
+// The scan's samples lead the way: a face's own samples start where one of them came from.
+void Fitter::locate_faces(const ByFace& by_face) {
+  const WalkableMesh on{scan_.mesh, scan_.stars, scan_.neighbours, scan_.face_normals};
+  const std::size_t faces = mesh_.triangles.size();
+  if (on_scan_.empty()) {
+    std::vector<std::uint32_t> start(faces, no_face);
+    std::vector<std::uint32_t> queue;
+    for (std::uint32_t f = 0; f < faces; ++f) {
+      if (by_face.first[f] == by_face.first[f + 1]) continue;
+      const std::uint32_t v = forward_.vertex[by_face.order[by_face.first[f]]];
+      start[f] = scan_.stars.corners(v).front() / 3;
+      queue.push_back(f);
+    }
+    for (std::size_t k = 0; k < queue.size(); ++k) {
+      for (const std::uint32_t g : neighbours_[queue[k]]) {
+        if (g == no_face || start[g] != no_face) continue;
+        start[g] = start[queue[k]];
+        queue.push_back(g);
+      }
+    }
+    on_scan_.resize(face_samples.size() * faces);
+    for (std::size_t s = 0; s < on_scan_.size(); ++s) {
+      const std::uint32_t f = start[s / face_samples.size()];
+      on_scan_[s].face = f == no_face ? 0 : f;
+    }
+  }
+  tbb::parallel_for(Range(0, faces, 256), [&](const Range& range) {
+    for (std::size_t f = range.begin(); f < range.end(); ++f) {
+      for (std::size_t k = 0; k < face_samples.size(); ++k) {
+        const Sample sample{point_at(mesh_, {static_cast<std::uint32_t>(f), false, face_samples[k]}), normals_[f], 0};
+        Location& at = on_scan_[face_samples.size() * f + k];
+        at = locate(on, sample, at.face, suspicious_part_of_edge * mean_edge_);
+      }
+    }
+  });
+}
+
+}  // namespace
+
+ShapeFitResult optimise_shape_and_fit(SurfaceMesh& mesh, const ReferenceSurface& scan, const ShapeFitOptions& options,
+                                      const Progress& progress) {
+  check(mesh, scan, options);
+  Fitter fitter(mesh, scan, options);
+  ShapeFitResult result;
+  for (int round = 0; round < options.rounds; ++round) {
+    progress("shape and fit", static_cast<double>(round) / options.rounds);
+    fitter.locate_samples(result);
+    for (int s = 0; s < options.sweeps; ++s) result.largest_step = fitter.sweep();
+  }
+  return result;
+}
+
+}  // namespace scan2fea

@@ -1,0 +1,61 @@
+// Moves the vertices of a mesh so that its triangles become equilateral and its surface lies on the scan, both at once.
+//
+// Minimises
+//   E = sum over faces F(eta) + n / (A (q d)^2) * sum over samples w r^2,
+// with F of shape_energy.hpp, n faces, A the scan's area, d its bounding-box diagonal, w the area that a scan sample
+// stands for and r its distance to the mesh. Shape alone slides off the scan, fit alone makes needles; the dial between
+// them is q: residuals of q d cost as much as F(eta) = 1. Each round locates all samples anew (locate.hpp), then a few
+// Gauss-Seidel sweeps take one 3 x 3 Newton step per vertex, on samples condensed to moments (fit_moments.hpp).
+#pragma once
+
+#include "preproc/mesh/progress.hpp"
+#include "preproc/mesh/surface_mesh.hpp"
+#include "preproc/surface/reference_surface.hpp"
+#include "preproc/surface/shape_energy.hpp"
+#include "preproc/surface/vertex_constraint.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace scan2fea {
+
+struct ShapeFitOptions {
+  // q: smaller follows the scan more closely, larger gives better triangles. In (0, 0.1).
+  double fidelity_of_diagonal = 0.0016;
+  // Times that all samples are located anew; 8 to 12 from a fresh mesh, 2 to 4 to settle one. At least 1.
+  int rounds = 8;
+  // Gauss-Seidel sweeps between two locations; at least 1. More than 4 overfits to stale locations.
+  int sweeps = 4;
+  // Also draw the mesh's own samples to the scan (four a face), not only the scan's to the mesh: holds spurious bumps
+  // between the scan's samples down; costs about twice the time of a location.
+  bool both_sides = false;
+  // Where set, a sample at distance r weighs 1 + (r / (lift_tail_of_diagonal d))^4, at most `most_lift`: trades RMS for
+  // the largest distance.
+  std::optional<double> lift_tail_of_diagonal;
+  double most_lift = 20;
+  ShapeEnergy shape;
+  VertexConstraints constraints;
+  // Per scan vertex a vertex of the mesh near it, to start the first location from (the lattice extraction knows it);
+  // where absent, a k-d tree finds one.
+  std::optional<std::vector<std::uint32_t>> nearest_vertex_of_scan_vertex;
+};
+
+struct ShapeFitResult {
+  // Of the scan's samples, when they were located last (before the last sweeps), in model units.
+  double rms_distance = 0;
+  double largest_distance = 0;
+  std::size_t samples = 0;
+  double largest_step = 0;  // of a vertex, in the last sweep
+};
+
+// Connectivity stays. Precondition: a manifold mesh near the scan whose triangles have areas and are not inverted: eta
+// does not see an inverted triangle. Throws WrongUsage for options out of range, InvalidInput for a mesh or scan
+// without triangles, Cancelled. Deterministic for any number of threads. Not guaranteed: freedom from
+// self-intersections and inverted triangles (see guard.hpp), exact volume (see preserve_volume.hpp).
+// Cost per round: O(samples) with a small constant (the samples are capped at 24 a face), a few ms per 10,000 faces
+// and sweep.
+ShapeFitResult optimise_shape_and_fit(SurfaceMesh& mesh, const ReferenceSurface& scan,
+                                      const ShapeFitOptions& options = {}, const Progress& progress = {});
+
+}  // namespace scan2fea

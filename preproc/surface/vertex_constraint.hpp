@@ -1,0 +1,15 @@
+// What an optimisation may do to a vertex.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace scan2fea {
+
+// Vertices on feature curves, which slide along them, will be a third kind.
+enum class VertexConstraint : std::uint8_t { free, fixed };
+
+// One a vertex, or empty where all are free.
+using VertexConstraints = std::vector<VertexConstraint>;
+
+}  // namespace scan2fea
