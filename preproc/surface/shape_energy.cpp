@@ -2,16 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace scan2fea {
-
-double shape_ratio(const Vec3& p, const Vec3& a, const Vec3& b) {
-  const double squares = (a - p).squaredNorm() + (b - p).squaredNorm() + (b - a).squaredNorm();
-  const double area = (a - p).cross(b - p).norm() / 2;
-  return area > 0 ? squares / (4 * std::numbers::sqrt3 * area) : std::numeric_limits<double>::infinity();
-}
 
 Derivatives shape_energy(const ShapeEnergy& energy, const Vec3& p, const Vec3& a, const Vec3& b) {
   const Vec3 edge = b - a;

@@ -25,9 +25,6 @@ struct Derivatives {
   Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
 };
 
-// Infinite for a triangle without area.
-double shape_ratio(const Vec3& p, const Vec3& a, const Vec3& b);
-
 // F of the triangle p, a, b and its derivatives by p. The Hessian is the closed form in the frame (along the edge ab,
 // height over it, normal) with negative curvature along the normal dropped, so that it is positive semi-definite.
 // Precondition: the triangle has an area.
