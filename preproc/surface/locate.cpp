@@ -106,8 +106,19 @@ Location locate(const WalkableMesh& on, const Sample& sample, std::uint32_t star
       if (distance > suspicious_distance || !agree) break;
       return {f, false, barycentric};
     }
-    const std::uint32_t next = on.neighbours[f][static_cast<std::size_t>(least - barycentric.begin())];
-    if (next == no_face || next == previous) break;
+    const auto k = static_cast<std::size_t>(least - barycentric.begin());
+    const std::uint32_t next = on.neighbours[f][k];
+    if (next == no_face) break;
+    if (next == previous) {
+      // Between two faces that both send the walk to the other: a ridge. The nearest point is on the edge, unless it
+      // falls on an end of it.
+      Location at{f, true, nearest_in_triangle(sample.point, a, b, c, at.clamped)};
+      const bool on_edge = at.barycentric[(k + 1) % 3] > 0 && at.barycentric[(k + 2) % 3] > 0;
+      const double distance_squared = (sample.point - point_at(on.mesh, at)).squaredNorm();
+      const bool agree = sample.normal.dot(normal) >= least_normal_agreement * std::sqrt(squared);
+      if (!on_edge || !agree || distance_squared > suspicious_distance * suspicious_distance) break;
+      return at;
+    }
     previous = f;
     f = next;
   }

@@ -52,6 +52,11 @@ std::vector<std::uint32_t> nearest_vertices(const std::vector<Vec3>& points, con
     std::array<std::uint32_t, candidates> index{};
     std::array<double, candidates> squared{};
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      tree.knnSearch(points[i].data(), 1, index.data(), squared.data());
+      if (normals[i].dot(vertex_normal[used[index[0]]]) >= 0) {
+        nearest[i] = used[index[0]];
+        continue;
+      }
       const std::size_t found = tree.knnSearch(points[i].data(), candidates, index.data(), squared.data());
       const auto badness = [&](std::size_t k) {
         const bool opposed = normals[i].dot(vertex_normal[used[index[k]]]) < 0;

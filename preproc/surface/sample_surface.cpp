@@ -67,21 +67,23 @@ SurfaceSamples all_samples(const ReferenceSurface& scan, const std::vector<int>&
   return out;
 }
 
-// Systematic sampling: one sample each time the running area passes the next multiple of a fixed share, spread over the
-// triangle by the additive recurrence of the plastic number (low discrepancy, so large triangles are covered evenly).
+// Stratified sampling: one sample somewhere in each share of the running area (somewhere, not always at its start: the
+// order of the triangles may be periodic), spread over its triangle. Additive recurrences, of the golden ratio and of
+// the plastic number, take the place of random numbers: even, and reproducible.
 SurfaceSamples thinned_samples(const ReferenceSurface& scan, std::size_t most) {
   SurfaceSamples out;
   out.samples.reserve(most + 1);
   out.vertex.reserve(most + 1);
   const double share = scan.area / static_cast<double>(most);
-  double next = share / 2;
+  double stratum = 0;
+  double phase = 0.5;
   double passed = 0;
   double x = 0.5;
   double y = 0.5;
   for (std::uint32_t f = 0; f < scan.mesh.triangles.size(); ++f) {
     const Triangle& t = scan.mesh.triangles[f];
     passed += area_vector(scan.mesh, t).norm() / 2;
-    for (; next < passed; next += share) {
+    for (; (stratum + phase) * share < passed; ++stratum, phase = std::fmod(phase + 0.6180339887498949, 1.0)) {
       x = std::fmod(x + 0.7548776662466927, 1.0);
       y = std::fmod(y + 0.5698402909980532, 1.0);
       const bool beyond = x + y > 1;

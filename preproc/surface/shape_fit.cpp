@@ -129,9 +129,28 @@ class Fitter {
     tbb::parallel_for(Range(0, locations_.size(), 1024), [&](const Range& range) {
       for (std::size_t s = range.begin(); s < range.end(); ++s) {
         const std::uint32_t v = nearest[forward_.vertex[s]];
-        locations_[s] = descend_to_nearest(on, forward_.samples[s], stars_.corners(v).front() / 3);
+        locations_[s] =
+            locate(on, forward_.samples[s], stars_.corners(v).front() / 3, suspicious_part_of_edge * mean_edge_);
       }
     });
+    sort_samples();
+  }
+
+  // Into the order of the faces, which they seldom leave: memory is then read in order from now on.
+  void sort_samples() {
+    const ByFace by_face = sort_by_face(locations_, mesh_.triangles.size());
+    SurfaceSamples sorted;
+    std::vector<Location> locations;
+    sorted.samples.reserve(locations_.size());
+    sorted.vertex.reserve(locations_.size());
+    locations.reserve(locations_.size());
+    for (const std::uint32_t s : by_face.order) {
+      sorted.samples.push_back(forward_.samples[s]);
+      sorted.vertex.push_back(forward_.vertex[s]);
+      locations.push_back(locations_[s]);
+    }
+    forward_ = std::move(sorted);
+    locations_ = std::move(locations);
   }
 
   void locate_faces(const ByFace& by_face);

@@ -1,0 +1,74 @@
+#include "preproc/surface/preserve_volume.hpp"
+
+#include "analytic_meshes.hpp"
+#include "preproc/mesh/error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace scan2fea {
+namespace {
+
+SurfaceMesh moved(SurfaceMesh mesh, const Vec3& by) {
+  for (Vec3& p : mesh.vertices) p += by;
+  return mesh;
+}
+
+TEST(PreserveVolume, GivesACoarseSphereTheVolumeOfTheFineOne) {
+  const SurfaceMesh fine = analytic::sphere(2, 5);
+  SurfaceMesh coarse = analytic::sphere(2, 3);
+  const double missing = enclosed_volume(fine) - enclosed_volume(coarse);
+  const VolumeShift shift = preserve_volume(coarse, fine);
+  EXPECT_NEAR(enclosed_volume(coarse) / enclosed_volume(fine), 1, 1e-13);
+  EXPECT_NEAR(shift.largest_displacement, missing / surface_area(coarse), 0.1 * shift.largest_displacement);
+}
+
+TEST(PreserveVolume, FarFromTheOriginToo) {
+  const Vec3 far(1e5, -2e5, 3e5);
+  const SurfaceMesh fine = moved(analytic::sphere(2, 4), far);
+  SurfaceMesh coarse = moved(analytic::sphere(2, 3), far);
+  preserve_volume(coarse, fine);
+  EXPECT_NEAR(enclosed_volume(coarse) / enclosed_volume(fine), 1, 1e-10);
+}
+
+TEST(PreserveVolume, NestedSpheresEachKeepTheirOwn) {
+  const SurfaceMesh inner = analytic::reversed(analytic::sphere(1, 4));
+  const SurfaceMesh outer = analytic::sphere(1.3, 4);
+  const SurfaceMesh like = analytic::join(inner, outer);
+  // The components come in the other order, so the pairing must be by place.
+  SurfaceMesh mesh = analytic::join(analytic::sphere(1.3, 3), analytic::reversed(analytic::sphere(1, 3)));
+  const std::size_t of_outer = analytic::sphere(1.3, 3).triangles.size();
+  const VolumeShift shift = preserve_volume(mesh, like);
+  EXPECT_EQ(shift.components, 2U);
+  SurfaceMesh part = mesh;
+  part.triangles.resize(of_outer);
+  EXPECT_NEAR(enclosed_volume(part) / enclosed_volume(outer), 1, 1e-12);
+  EXPECT_NEAR(enclosed_volume(mesh) / enclosed_volume(like), 1, 1e-12);
+}
+
+TEST(PreserveVolume, UnpairedComponentsShareOneShift) {
+  const SurfaceMesh like = analytic::sphere(1, 4);
+  SurfaceMesh mesh = analytic::join(analytic::sphere(0.99, 3), moved(analytic::sphere(0.05, 2), {3, 0, 0}));
+  EXPECT_EQ(preserve_volume(mesh, like).components, 1U);
+  EXPECT_NEAR(enclosed_volume(mesh) / enclosed_volume(like), 1, 1e-12);
+}
+
+TEST(PreserveVolume, FixedVerticesStay) {
+  const SurfaceMesh fine = analytic::sphere(2, 4);
+  SurfaceMesh coarse = analytic::sphere(2, 3);
+  VertexConstraints constraints(coarse.vertices.size(), VertexConstraint::free);
+  constraints[5] = VertexConstraint::fixed;
+  const Vec3 place = coarse.vertices[5];
+  preserve_volume(coarse, fine, constraints);
+  EXPECT_EQ(coarse.vertices[5], place);
+  EXPECT_NEAR(enclosed_volume(coarse) / enclosed_volume(fine), 1, 1e-12);
+}
+
+TEST(PreserveVolume, RefusesAnotherBody) {
+  SurfaceMesh mesh = analytic::sphere(1, 3);
+  EXPECT_THROW(preserve_volume(mesh, analytic::sphere(3, 3)), NotMeshable);
+}
+
+}  // namespace
+}  // namespace scan2fea
