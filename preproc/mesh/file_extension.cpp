@@ -1,0 +1,14 @@
+#include "preproc/mesh/file_extension.hpp"
+
+#include <algorithm>
+
+namespace scan2fea {
+
+std::string lower_case_extension(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return extension;
+}
+
+}  // namespace scan2fea

@@ -1,0 +1,58 @@
+#include "preproc/mesh/input_file.hpp"
+
+#include "preproc/mesh/error.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+namespace scan2fea {
+
+InputFile::InputFile(std::filesystem::path path) : path_(std::move(path)) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path_, error);
+  if (status.type() == std::filesystem::file_type::not_found) fail("no such file");
+  if (std::filesystem::is_directory(status)) fail("this is a directory", {}, {}, "one of the files in it");
+
+  errno = 0;
+  std::ifstream stream(path_, std::ios::binary);
+  if (!stream) fail("the file cannot be opened", std::strerror(errno));
+  if (std::filesystem::is_regular_file(status)) {
+    const std::uintmax_t size = std::filesystem::file_size(path_, error);
+    if (error) fail("the file cannot be read", error.message());
+    bytes_ = std::make_unique_for_overwrite<char[]>(size);
+    stream.read(bytes_.get(), static_cast<std::streamsize>(size));
+    size_ = static_cast<std::size_t>(stream.gcount());
+  } else {  // a pipe does not know its size
+    std::ostringstream all;
+    all << stream.rdbuf();
+    size_ = all.view().size();
+    bytes_ = std::make_unique_for_overwrite<char[]>(size_);
+    std::copy(all.view().begin(), all.view().end(), bytes_.get());
+  }
+  if (stream.bad()) fail("the file cannot be read", std::strerror(errno));
+  if (size_ == 0) fail("the file is empty");
+}
+
+void InputFile::fail(std::string what, std::string value, std::string limit, std::string advice) const {
+  throw InvalidInput({std::move(what), path_.string(), std::move(value), std::move(limit), std::move(advice)});
+}
+
+void InputFile::fail_at_line(const char* at, std::string what, std::string value, std::string limit,
+                             std::string advice) const {
+  std::size_t line = 1;
+  for (const char* c = bytes_.get(); c < at; ++c)
+    line += *c == '\n' || (*c == '\r' && !(c + 1 < bytes_.get() + size_ && c[1] == '\n'));
+  throw InvalidInput({std::move(what), path_.string() + ":" + std::to_string(line), std::move(value), std::move(limit),
+                      std::move(advice)});
+}
+
+void InputFile::fail_at_byte(const char* at, std::string what, std::string value, std::string limit,
+                             std::string advice) const {
+  throw InvalidInput({std::move(what), path_.string() + ": byte " + std::to_string(at - bytes_.get()), std::move(value),
+                      std::move(limit), std::move(advice)});
+}
+
+}  // namespace scan2fea

@@ -1,0 +1,36 @@
+// One input file, whole in memory, and the errors about what it holds.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace scan2fea {
+
+// Read whole rather than mapped: a mapped file that another program shortens meanwhile ends the process with SIGBUS,
+// and a pipe cannot be mapped.
+class InputFile {
+ public:
+  // Throws InvalidInput where the file is missing, a directory, unreadable or empty.
+  explicit InputFile(std::filesystem::path path);
+
+  const std::filesystem::path& path() const { return path_; }
+  std::string_view bytes() const { return {bytes_.get(), size_}; }
+
+  // Throw InvalidInput for the file, the line or the byte of `at`, which points into `bytes()`. Lines are counted here,
+  // not while reading: they are asked for once at most.
+  [[noreturn]] void fail(std::string what, std::string value = {}, std::string limit = {},
+                         std::string advice = {}) const;
+  [[noreturn]] void fail_at_line(const char* at, std::string what, std::string value = {}, std::string limit = {},
+                                 std::string advice = {}) const;
+  [[noreturn]] void fail_at_byte(const char* at, std::string what, std::string value = {}, std::string limit = {},
+                                 std::string advice = {}) const;
+
+ private:
+  std::filesystem::path path_;
+  std::unique_ptr<char[]> bytes_;
+  std::size_t size_ = 0;
+};
+
+}  // namespace scan2fea

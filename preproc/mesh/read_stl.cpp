@@ -1,0 +1,114 @@
+#include "preproc/mesh/byte_order.hpp"
+#include "preproc/mesh/surface_formats.hpp"
+#include "preproc/mesh/text_scanner.hpp"
+#include "preproc/mesh/vertex_welder.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace scan2fea {
+namespace {
+
+constexpr std::size_t count_offset = 80;
+constexpr std::size_t header_size = 84;
+constexpr std::size_t triangle_size = 50;  // normal, three corners, two bytes of attributes
+constexpr std::size_t corner_offset = 12;  // the normal is passed over: it follows from the corners, and is often 0
+constexpr std::size_t corner_size = 12;
+
+std::size_t promised_triangles(std::string_view bytes) {
+  return load<std::uint32_t>(bytes.data() + count_offset, std::endian::little);
+}
+
+// Programs write "solid" at the start of binary files too, so the count and control characters are what tells.
+bool looks_like_text(std::string_view bytes) {
+  constexpr std::size_t sample = 1024;
+  return std::ranges::none_of(bytes.substr(0, sample), [](char c) {
+    const auto code = static_cast<unsigned char>(c);
+    return code < 0x20 && c != '\t' && c != '\n' && c != '\v' && c != '\f' && c != '\r';
+  });
+}
+
+Vec3 read_corner(const InputFile& file, const char* at) {
+  Vec3 point;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const float value = load<float>(at + 4 * k, std::endian::little);
+    if (!std::isfinite(value)) file.fail_at_byte(at + 4 * k, "not a finite coordinate", std::to_string(value));
+    point[static_cast<int>(k)] = static_cast<double>(value);
+  }
+  return point;
+}
+
+SurfaceMesh read_binary(const InputFile& file) {
+  const std::string_view bytes = file.bytes();
+  if (bytes.size() < header_size)
+    file.fail("neither an ASCII STL nor long enough for a binary one", std::to_string(bytes.size()) + " bytes",
+              std::to_string(header_size) + " bytes at least", "exporting the scan again");
+  const std::size_t promised = promised_triangles(bytes);
+  const std::size_t held = (bytes.size() - header_size) / triangle_size;
+  if (promised > held)
+    file.fail_at_byte(bytes.data() + count_offset, "the header promises more triangles than the file holds",
+                      std::to_string(promised), std::to_string(held), "exporting or copying the scan again");
+  if (promised < held)
+    file.fail_at_byte(bytes.data() + count_offset, "the file holds more triangles than its header says",
+                      std::to_string(held), std::to_string(promised), "exporting the scan again");
+
+  SurfaceMesh mesh;
+  mesh.triangles.reserve(promised);
+  VertexWelder welder(promised / 2 + 2);  // as many as a closed surface of genus 0 has
+  const auto point = [&](std::size_t t, std::size_t k) {
+    return read_corner(file, bytes.data() + header_size + t * triangle_size + corner_offset + k * corner_size);
+  };
+  constexpr std::size_t ahead = 8;  // triangles; welding waits for memory otherwise
+  for (std::size_t t = 0; t < promised; ++t) {
+    if (t + ahead < promised)
+      for (std::size_t k = 0; k < 3; ++k) welder.prefetch(point(t + ahead, k));
+    mesh.triangles.push_back({welder.add(point(t, 0)), welder.add(point(t, 1)), welder.add(point(t, 2))});
+  }
+  mesh.vertices = welder.take_vertices();
+  return mesh;
+}
+
+// Line by line: the keywords that hold nothing (`outer loop`, normals, names) are passed over.
+SurfaceMesh read_ascii(const InputFile& file) {
+  SurfaceMesh mesh;
+  VertexWelder welder(0);
+  Triangle corners{};
+  std::size_t count = 0;
+  bool inside_solid = false;
+  TextScanner line(file);
+  for (; line.skip_space(); line.skip_line()) {
+    const char* start = line.position();
+    const std::string_view keyword = line.word();
+    if (is_keyword(keyword, "vertex")) {
+      if (count == 3) line.fail(start, "a facet has more than three vertices", {}, {}, "triangulating the surface");
+      corners[count++] = welder.add(line.point());
+    } else if (is_keyword(keyword, "endfacet")) {
+      if (count != 3) line.fail(start, "a facet ends before its third vertex", std::to_string(count), "3");
+      mesh.triangles.push_back(corners);
+      count = 0;
+    } else if (is_keyword(keyword, "solid") || is_keyword(keyword, "endsolid")) {
+      inside_solid = is_keyword(keyword, "solid");
+      if (count != 0) line.fail(start, "a solid begins or ends inside a facet");
+    } else if (!is_keyword(keyword, "facet") && !is_keyword(keyword, "outer") && !is_keyword(keyword, "endloop")) {
+      line.fail(start, "not a keyword of STL", std::string(keyword.substr(0, 40)), {},
+                "checking that this is an STL file");
+    }
+  }
+  if (inside_solid)
+    line.fail(line.position(), "the file ends before endsolid", {}, {}, "exporting or copying the scan again");
+  mesh.vertices = welder.take_vertices();
+  return mesh;
+}
+
+}  // namespace
+
+bool is_binary_stl(const InputFile& file) {
+  const std::string_view bytes = file.bytes();
+  return bytes.size() > header_size && bytes.size() == header_size + triangle_size * promised_triangles(bytes);
+}
+
+SurfaceMesh read_stl(const InputFile& file) {
+  return is_binary_stl(file) || !looks_like_text(file.bytes()) ? read_binary(file) : read_ascii(file);
+}
+
+}  // namespace scan2fea

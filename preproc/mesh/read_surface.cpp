@@ -1,0 +1,35 @@
+#include "preproc/mesh/read_surface.hpp"
+
+#include "preproc/mesh/file_extension.hpp"
+#include "preproc/mesh/surface_formats.hpp"
+
+#include <string>
+
+namespace scan2fea {
+namespace {
+
+SurfaceMesh read(const InputFile& file) {
+  if (is_ply(file)) return read_ply(file);
+  if (is_off(file)) return read_off(file);
+  if (is_binary_stl(file)) return read_stl(file);
+  const std::string extension = lower_case_extension(file.path());
+  if (extension == ".stl") return read_stl(file);
+  if (extension == ".obj") return read_obj(file);
+  if (extension == ".ply") return read_ply(file);
+  if (extension == ".off") return read_off(file);
+  file.fail("neither the content nor the extension tells a surface format", extension, ".stl, .obj, .ply or .off",
+            "converting it to one of these");
+}
+
+}  // namespace
+
+SurfaceMesh read_surface(const std::filesystem::path& path) {
+  const InputFile file(path);
+  SurfaceMesh mesh = read(file);
+  if (mesh.triangles.empty())
+    file.fail("the file holds no faces", std::to_string(mesh.vertices.size()) + " vertices", {},
+              "reconstructing a surface first, if this is a point cloud");
+  return mesh;
+}
+
+}  // namespace scan2fea

@@ -1,0 +1,29 @@
+// The readers of the surface formats, one source file each. `read_surface` chooses among them.
+// All throw InvalidInput as read_surface.hpp says, give finite coordinates and indices in range, and leave it to
+// `read_surface` to refuse a surface without faces.
+#pragma once
+
+#include "preproc/mesh/input_file.hpp"
+#include "preproc/mesh/surface_mesh.hpp"
+
+namespace scan2fea {
+
+// STL, ASCII or binary, of any number of solids; bit-identical corners become one vertex, -0 being 0.
+SurfaceMesh read_stl(const InputFile& file);
+
+// Wavefront OBJ: the positions and faces of all groups together; texture, normals and colours are passed over.
+SurfaceMesh read_obj(const InputFile& file);
+
+// Stanford PLY 1.0: x, y, z of `vertex`, the list of `face` and of `tristrips`, among any other properties and
+// elements.
+SurfaceMesh read_ply(const InputFile& file);
+
+// Geomview OFF, also with normals, colours or texture (NOFF, COFF, STOFF), which are passed over.
+SurfaceMesh read_off(const InputFile& file);
+
+// What the content alone tells.
+bool is_binary_stl(const InputFile& file);  // its triangle count and its size agree
+bool is_ply(const InputFile& file);
+bool is_off(const InputFile& file);
+
+}  // namespace scan2fea

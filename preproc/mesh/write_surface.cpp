@@ -1,0 +1,138 @@
+#include "preproc/mesh/write_surface.hpp"
+
+#include "preproc/mesh/byte_order.hpp"
+#include "preproc/mesh/error.hpp"
+#include "preproc/mesh/file_extension.hpp"
+#include "preproc/mesh/output_file.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <string_view>
+
+namespace scan2fea {
+namespace {
+
+// Collects small pieces so that the stream sees large ones only.
+class Buffer {
+ public:
+  explicit Buffer(std::ostream& stream) : stream_(stream) { bytes_.reserve(capacity); }
+
+  Buffer& text(std::string_view piece) {
+    if (bytes_.size() + piece.size() > capacity) flush();
+    bytes_ += piece;
+    return *this;
+  }
+
+  // The shortest decimal that reads back as `value`.
+  template <class T>
+  Buffer& number(T value) {
+    char digits[32];
+    const auto [last, error] = std::to_chars(digits, digits + sizeof(digits), value);
+    return text({digits, static_cast<std::size_t>(last - digits)});
+  }
+
+  template <class T>
+  Buffer& binary(T value) {
+    char bytes[sizeof(T)];
+    store(value, bytes, std::endian::little);
+    return text({bytes, sizeof(T)});
+  }
+
+  void flush() {
+    stream_.write(bytes_.data(), static_cast<std::streamsize>(bytes_.size()));
+    bytes_.clear();
+  }
+
+ private:
+  static constexpr std::size_t capacity = 1 << 16;
+  std::ostream& stream_;
+  std::string bytes_;
+};
+
+void write_stl(const SurfaceMesh& mesh, Buffer& out) {
+  std::string header = "written by scan2fea";  // must not begin with "solid", by which ASCII is told
+  header.resize(80, ' ');
+  out.text(header).binary(static_cast<std::uint32_t>(mesh.triangles.size()));
+  const auto point = [&](const Vec3& p) {
+    for (const double coordinate : p) {
+      constexpr float largest = std::numeric_limits<float>::max();
+      if (std::abs(coordinate) > static_cast<double>(largest))
+        throw IoError({"a coordinate does not fit the 32 bits of STL",
+                       {},
+                       std::to_string(coordinate),
+                       std::to_string(largest),
+                       "PLY, OBJ or OFF, or another unit"});
+      out.binary(static_cast<float>(coordinate));
+    }
+  };
+  for (const Triangle& t : mesh.triangles) {
+    point(area_vector(mesh, t).stableNormalized());  // 0 where there is no area, as STL has it
+    for (const std::uint32_t v : t) point(mesh.vertices[v]);
+    out.binary(std::uint16_t{0});
+  }
+}
+
+void write_obj(const SurfaceMesh& mesh, Buffer& out) {
+  for (const Vec3& p : mesh.vertices) {
+    out.text("v");
+    for (const double coordinate : p) out.text(" ").number(coordinate);
+    out.text("\n");
+  }
+  for (const Triangle& t : mesh.triangles) {
+    out.text("f");
+    for (const std::uint32_t v : t) out.text(" ").number(std::uint64_t{v} + 1);
+    out.text("\n");
+  }
+}
+
+// `int` and not `uint` for indices: it is what all readers know.
+void write_ply(const SurfaceMesh& mesh, Buffer& out) {
+  out.text("ply\nformat binary_little_endian 1.0\ncomment written by scan2fea\nelement vertex ");
+  out.number(mesh.vertices.size());
+  out.text("\nproperty double x\nproperty double y\nproperty double z\nelement face ");
+  out.number(mesh.triangles.size());
+  out.text("\nproperty list uchar int vertex_indices\nend_header\n");
+  for (const Vec3& p : mesh.vertices)
+    for (const double coordinate : p) out.binary(coordinate);
+  for (const Triangle& t : mesh.triangles) {
+    out.binary(std::uint8_t{3});
+    for (const std::uint32_t v : t) out.binary(v);
+  }
+}
+
+void write_off(const SurfaceMesh& mesh, Buffer& out) {
+  out.text("OFF\n").number(mesh.vertices.size()).text(" ").number(mesh.triangles.size()).text(" 0\n");
+  for (const Vec3& p : mesh.vertices) out.number(p[0]).text(" ").number(p[1]).text(" ").number(p[2]).text("\n");
+  for (const Triangle& t : mesh.triangles) {
+    out.text("3");
+    for (const std::uint32_t v : t) out.text(" ").number(v);
+    out.text("\n");
+  }
+}
+
+using Writer = void (*)(const SurfaceMesh&, Buffer&);
+
+Writer writer_for(const std::filesystem::path& file) {
+  const std::string extension = lower_case_extension(file);
+  if (extension == ".stl") return write_stl;
+  if (extension == ".obj") return write_obj;
+  if (extension == ".ply") return write_ply;
+  if (extension == ".off") return write_off;
+  throw WrongUsage({"the extension of the output names no surface format", file.string(), extension,
+                    ".stl, .obj, .ply or .off", "one of these"});
+}
+
+}  // namespace
+
+void write_surface(const SurfaceMesh& mesh, const std::filesystem::path& file) {
+  const Writer write = writer_for(file);
+  OutputFile output(file);
+  Buffer buffer(output.stream());
+  write(mesh, buffer);
+  buffer.flush();
+  output.commit();
+}
+
+}  // namespace scan2fea
