@@ -70,5 +70,11 @@ TEST(PreserveVolume, RefusesAnotherBody) {
   EXPECT_THROW(preserve_volume(mesh, analytic::sphere(3, 3)), NotMeshable);
 }
 
+TEST(PreserveVolume, RefusesAnOpenSurface) {
+  SurfaceMesh mesh = analytic::sphere(1, 3);
+  mesh.triangles.pop_back();
+  EXPECT_THROW(preserve_volume(mesh, analytic::sphere(1, 4)), NotMeshable);
+}
+
 }  // namespace
 }  // namespace scan2fea

@@ -3,6 +3,7 @@
 #include "preproc/mesh/error.hpp"
 #include "preproc/surface/adjacency.hpp"
 #include "preproc/surface/nearest_vertices.hpp"
+#include "quality/validity.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -122,6 +123,13 @@ double shift_to_volume(SurfaceMesh& mesh, const std::vector<std::uint32_t>& face
 
 VolumeShift preserve_volume(SurfaceMesh& mesh, const SurfaceMesh& like, const VertexConstraints& constraints) {
   if (mesh.triangles.empty() || like.triangles.empty()) return {};
+  if (!check_validity(mesh).encloses_volume() || !check_validity(like).encloses_volume()) {
+    throw NotMeshable({.what = "no volume to keep",
+                       .where = "",
+                       .value = "an open surface",
+                       .limit = "closed and oriented",
+                       .advice = "repair the scan, or leave its holes open and the volume unkept"});
+  }
   std::size_t count = 0;
   std::size_t like_count = 0;
   const std::vector<std::uint32_t> label = label_vertices(mesh, count);

@@ -1,0 +1,111 @@
+#include "preproc/surface/guard.hpp"
+
+#include "preproc/surface/preserve_volume.hpp"
+#include "preproc/surface/shape_fit.hpp"
+#include "preproc/surface/untangle.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace scan2fea {
+namespace {
+
+// Enough for a tangle to spread out, few enough to leave the rest of the surface alone.
+constexpr int rings_of_repair = 2;
+constexpr int smoothing_sweeps = 10;
+
+std::vector<std::uint32_t> faces_of(const SurfaceDefects& defects) {
+  std::vector<std::uint32_t> faces = defects.inverted;
+  faces.insert(faces.end(), defects.small_angles.begin(), defects.small_angles.end());
+  for (const FacePair& p : defects.crossings) faces.insert(faces.end(), {p.face, p.other});
+  return faces;
+}
+
+void remove_fixed(std::vector<bool>& movable, const VertexConstraints& constraints) {
+  for (std::size_t v = 0; v < constraints.size(); ++v) {
+    if (constraints[v] == VertexConstraint::fixed) movable[v] = false;
+  }
+}
+
+// Once more weight on shape, where `movable` is set.
+void refit(SurfaceMesh& mesh, const ReferenceSurface& scan, const std::vector<bool>& movable, double fidelity) {
+  ShapeFitOptions fit;
+  fit.fidelity_of_diagonal = fidelity;
+  fit.rounds = 2;
+  fit.constraints.resize(mesh.vertices.size());
+  for (std::size_t v = 0; v < movable.size(); ++v) {
+    fit.constraints[v] = movable[v] ? VertexConstraint::free : VertexConstraint::fixed;
+  }
+  optimise_shape_and_fit(mesh, scan, fit);
+}
+
+void mend(SurfaceMesh& mesh, const ReferenceSurface& scan, const SurfaceDefects& defects, int round,
+          const GuardOptions& options, const std::vector<std::uint32_t>& near) {
+  std::vector<bool> movable = vertices_around(mesh, faces_of(defects), rings_of_repair + round / 2);
+  remove_fixed(movable, options.constraints);
+  if (!defects.meshable()) {
+    // Only what is tangled is smoothed: the fit alone serves small angles better.
+    SurfaceDefects tangled = defects;
+    tangled.small_angles.clear();
+    std::vector<bool> around = vertices_around(mesh, faces_of(tangled), 1);
+    remove_fixed(around, options.constraints);
+    if (!defects.inverted.empty() || round > 1) {
+      smooth_worst(mesh, scan, near, around, smoothing_sweeps);
+      if (flip_worst(mesh, scan, near, around) > 0) smooth_worst(mesh, scan, near, around, smoothing_sweeps);
+    }
+  } else if (round > 0) {
+    flip_worst(mesh, scan, near, movable);
+  }
+  refit(mesh, scan, movable, std::min(0.05, options.fidelity_of_diagonal * std::pow(1.5, round + 1)));
+  // Last, since the fit pulls crossing sheets back to where they crossed.
+  if (!defects.crossings.empty()) {
+    push_apart(mesh, scan, near, find_self_intersections(mesh), options.constraints);
+  }
+}
+
+}  // namespace
+
+GuardResult guard_surface(SurfaceMesh& mesh, const ReferenceSurface& scan, const GuardOptions& options,
+                          const Progress& progress) {
+  if (!(options.least_angle_deg >= 0 && options.least_angle_deg < 60) || options.rounds < 1) {
+    throw WrongUsage(
+        {.what = "guard options out of range",
+         .where = "",
+         .value = std::to_string(options.least_angle_deg) + " degrees, " + std::to_string(options.rounds) + " rounds",
+         .limit = "0 to 60 degrees, at least 1 round",
+         .advice = ""});
+  }
+  if (options.keep_volume) preserve_volume(mesh, scan.mesh, options.constraints);
+  GuardResult result;
+  std::vector<std::uint32_t> near = scan_vertices_of_faces(mesh, scan);
+  result.before = find_defects(mesh, scan, near, options.least_angle_deg);
+  result.after = result.before;
+  std::vector<bool> moved(mesh.vertices.size(), false);
+  for (; result.rounds < options.rounds && !result.after.none(); ++result.rounds) {
+    progress("guard", static_cast<double>(result.rounds) / options.rounds);
+    const SurfaceMesh start = mesh;
+    mend(mesh, scan, result.after, result.rounds, options, near);
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+      const double move = (mesh.vertices[v] - start.vertices[v]).norm();
+      if (move > 0) moved[v] = true;
+      result.largest_move = std::max(result.largest_move, move);
+    }
+    if (options.keep_volume) preserve_volume(mesh, scan.mesh, options.constraints);
+    near = scan_vertices_of_faces(mesh, scan);
+    const SurfaceDefects now = find_defects(mesh, scan, near, options.least_angle_deg);
+    // Raising an angle is no reason to break something, nor to go on for ever without gain.
+    const auto harm = [](const SurfaceDefects& d) { return d.crossings.size() + d.inverted.size(); };
+    const bool worse = harm(now) > harm(result.after) || (harm(now) == harm(result.after) && harm(now) == 0 &&
+                                                          now.small_angles.size() > result.after.small_angles.size());
+    if (worse && result.after.meshable()) {
+      mesh = start;
+      break;
+    }
+    result.after = now;
+  }
+  result.moved = static_cast<std::size_t>(std::count(moved.begin(), moved.end(), true));
+  return result;
+}
+
+}  // namespace scan2fea

@@ -1,0 +1,172 @@
+#include "preproc/surface/untangle.hpp"
+
+#include "preproc/surface/halfedge_mesh.hpp"
+#include "preproc/surface/locate.hpp"
+#include "preproc/surface/star_objective.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <span>
+
+namespace scan2fea {
+namespace {
+
+double worst_of_star(const SurfaceMesh& mesh, const ReferenceSurface& scan, const std::vector<std::uint32_t>& near,
+                     std::span<const std::uint32_t> corners) {
+  double worst = 1;
+  for (const std::uint32_t corner : corners) {
+    const std::uint32_t f = corner / 3;
+    worst = std::min(worst, signed_quality(mesh, mesh.triangles[f], scan.vertex_normals[near[f]]));
+  }
+  return worst;
+}
+
+Vec3 centroid_of_link(const SurfaceMesh& mesh, std::span<const std::uint32_t> corners) {
+  Vec3 sum = Vec3::Zero();
+  for (const std::uint32_t corner : corners) {
+    const Triangle& t = mesh.triangles[corner / 3];
+    const std::uint32_t k = corner % 3;
+    sum += mesh.vertices[t[(k + 1) % 3]] + mesh.vertices[t[(k + 2) % 3]];
+  }
+  return sum / (2.0 * static_cast<double>(corners.size()));
+}
+
+bool share_a_vertex(const Triangle& a, const Triangle& b) {
+  return std::any_of(a.begin(), a.end(), [&](std::uint32_t v) { return std::find(b.begin(), b.end(), v) != b.end(); });
+}
+
+double mean_edge_of(const ReferenceSurface& scan, const SurfaceMesh& mesh) {
+  return std::sqrt(4 / std::numbers::sqrt3 * scan.area / static_cast<double>(mesh.triangles.size()));
+}
+
+}  // namespace
+
+std::vector<bool> vertices_around(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& faces, int rings) {
+  std::vector<bool> inside(mesh.vertices.size(), false);
+  for (const std::uint32_t f : faces) {
+    for (const std::uint32_t v : mesh.triangles[f]) inside[v] = true;
+  }
+  for (int ring = 0; ring < rings; ++ring) {
+    std::vector<bool> grown = inside;
+    for (const Triangle& t : mesh.triangles) {
+      if (inside[t[0]] || inside[t[1]] || inside[t[2]]) grown[t[0]] = grown[t[1]] = grown[t[2]] = true;
+    }
+    inside = std::move(grown);
+  }
+  return inside;
+}
+
+double signed_quality(const SurfaceMesh& mesh, const Triangle& t, const Vec3& normal) {
+  const double quality = 1 / eta(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
+  return area_vector(mesh, t).dot(normal) < 0 ? -quality : quality;
+}
+
+void smooth_worst(SurfaceMesh& mesh, const ReferenceSurface& scan, const std::vector<std::uint32_t>& near,
+                  const std::vector<bool>& movable, int sweeps) {
+  const VertexStars stars(mesh);
+  const WalkableMesh on{scan.mesh, scan.stars, scan.neighbours, scan.face_normals};
+  constexpr std::array<double, 4> parts{1, 0.5, 0.25, 0.1};
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    bool helped = false;
+    for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
+      const std::span<const std::uint32_t> corners = stars.corners(v);
+      if (!movable[v] || corners.empty()) continue;
+      Vec3 best = mesh.vertices[v];
+      double best_quality = worst_of_star(mesh, scan, near, corners);
+      const Vec3 start = mesh.vertices[v];
+      const Vec3 towards = centroid_of_link(mesh, corners);
+      const std::uint32_t scan_vertex = near[corners.front() / 3];
+      const Vec3& normal = scan.vertex_normals[scan_vertex];
+      const auto consider = [&](const Vec3& p) {
+        mesh.vertices[v] = p;
+        const double quality = worst_of_star(mesh, scan, near, corners);
+        if (quality > best_quality + 1e-3) {
+          best_quality = quality;
+          best = p;
+          helped = true;
+        }
+      };
+      for (const double part : parts) {
+        const Vec3 p = start + part * (towards - start);
+        consider(p);
+        consider(
+            point_at(scan.mesh, descend_to_nearest(on, {p, normal, 0}, scan.stars.corners(scan_vertex).front() / 3)));
+      }
+      mesh.vertices[v] = best;
+    }
+    if (!helped) return;
+  }
+}
+
+std::size_t flip_worst(SurfaceMesh& mesh, const ReferenceSurface& scan, const std::vector<std::uint32_t>& near,
+                       const std::vector<bool>& movable) {
+  using Index = HalfedgeMesh::Index;
+  HalfedgeMesh halfedges(mesh);
+  std::size_t flips = 0;
+  for (Index h = 0; h < 3 * halfedges.face_slots(); ++h) {
+    if (!movable[halfedges.origin(h)] || !movable[halfedges.target(h)] || !halfedges.can_flip(h)) continue;
+    const Index o = halfedges.opposite(h);
+    const std::uint32_t f = HalfedgeMesh::face(h);
+    const std::uint32_t g = HalfedgeMesh::face(o);
+    const auto quality = [&](const Triangle& t, std::uint32_t face) {
+      return signed_quality(mesh, t, scan.vertex_normals[near[face]]);
+    };
+    const double before = std::min(quality(halfedges.triangle(f), f), quality(halfedges.triangle(g), g));
+    const Index a = halfedges.origin(h);
+    const Index b = halfedges.target(h);
+    const Index c = halfedges.target(HalfedgeMesh::next(h));
+    const Index d = halfedges.target(HalfedgeMesh::next(o));
+    const double after = std::min(quality({a, d, c}, f), quality({d, b, c}, g));
+    if (after <= before + 0.05) continue;
+    halfedges.flip(h);
+    ++flips;
+  }
+  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) mesh.triangles[f] = halfedges.triangle(f);
+  return flips;
+}
+
+bool push_apart(SurfaceMesh& mesh, const ReferenceSurface& scan, const std::vector<std::uint32_t>& near,
+                const std::vector<FacePair>& crossings, const VertexConstraints& constraints) {
+  // Beyond this the two normals do not tell sheets that face one another.
+  constexpr double least_difference = 0.5;
+  constexpr int most_steps = 16;
+  const double step = mean_edge_of(scan, mesh) / 64;
+  std::vector<FacePair> pairs = crossings;
+  for (int k = 0; k < most_steps; ++k) {
+    std::erase_if(pairs,
+                  [&](const FacePair& p) { return share_a_vertex(mesh.triangles[p.face], mesh.triangles[p.other]); });
+    if (pairs.empty()) return true;
+    std::vector<Vec3> push(mesh.vertices.size(), Vec3::Zero());
+    std::vector<std::uint32_t> faces;
+    for (const FacePair& p : pairs) {
+      const Triangle& t = mesh.triangles[p.face];
+      const Triangle& u = mesh.triangles[p.other];
+      Vec3 apart = area_vector(mesh, t).normalized() - area_vector(mesh, u).normalized();
+      if (apart.norm() < least_difference) continue;
+      apart.normalize();
+      if (apart.dot(scan.mesh.vertices[near[p.face]] - scan.mesh.vertices[near[p.other]]) < 0) apart = -apart;
+      for (const std::uint32_t v : t) push[v] += apart;
+      for (const std::uint32_t v : u) push[v] -= apart;
+      faces.insert(faces.end(), {p.face, p.other});
+    }
+    if (faces.empty()) return false;
+    for (std::uint32_t v = 0; v < push.size(); ++v) {
+      const bool fixed = !constraints.empty() && constraints[v] == VertexConstraint::fixed;
+      if (!fixed && push[v].norm() > 0.1) mesh.vertices[v] += step * push[v].normalized();
+    }
+    // Their neighbours moved along: all faces around the pairs are checked.
+    const std::vector<bool> touched = vertices_around(mesh, faces, 0);
+    faces.clear();
+    for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+      const Triangle& t = mesh.triangles[f];
+      if (touched[t[0]] || touched[t[1]] || touched[t[2]]) faces.push_back(f);
+    }
+    pairs = find_self_intersections(mesh, faces);
+  }
+  return false;
+}
+
+}  // namespace scan2fea
