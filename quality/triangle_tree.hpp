@@ -92,11 +92,14 @@ void TriangleTree::for_each_overlap(const BoundingBox& box, Visit&& visit) const
   stack[size++] = 0;
   while (size > 0) {
     const Node& node = nodes_[stack[--size]];
-    const auto meets = node.low.col(0) <= box.high.x() && node.low.col(1) <= box.high.y() &&
-                       node.low.col(2) <= box.high.z() && node.high.col(0) >= box.low.x() &&
-                       node.high.col(1) >= box.low.y() && node.high.col(2) >= box.low.z();
-    for (int k = 0; k < 4; ++k) {
-      if (!meets[k]) continue;
+    // The largest of the gaps along the axes, for all four children; negative where they overlap. A difference of
+    // doubles has the right sign even where it is rounded.
+    const auto gap = [&](Eigen::Index axis) {
+      return (node.low.col(axis) - box.high[axis]).max(box.low[axis] - node.high.col(axis));
+    };
+    const Eigen::Array4d gaps = gap(0).max(gap(1)).max(gap(2));
+    for (Eigen::Index k = 0; k < 4; ++k) {
+      if (!(gaps[k] <= 0)) continue;
       const std::uint32_t child = node.child[static_cast<std::size_t>(k)];
       if (child & is_leaf_bit)
         visit(triangle_of_leaf_[child & ~is_leaf_bit]);

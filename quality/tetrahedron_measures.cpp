@@ -1,0 +1,126 @@
+#include "quality/tetrahedron_measures.hpp"
+
+#include "quality/jacobian_bound.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace scan2fea {
+namespace {
+
+constexpr double degrees = 180 / std::numbers::pi;
+
+// For each edge of tetrahedron_edges the two corners that are not on it.
+constexpr std::array<std::array<std::size_t, 2>, 6> opposite{{{2, 3}, {0, 3}, {1, 3}, {1, 2}, {0, 2}, {0, 1}}};
+
+// The edges (indices into tetrahedron_edges) that meet at each corner.
+constexpr std::array<std::array<std::size_t, 3>, 4> edges_at_corner{{{0, 2, 3}, {0, 1, 4}, {1, 2, 5}, {3, 4, 5}}};
+
+struct Extremes {
+  double min_dihedral_deg = 180, max_dihedral_deg = 0;
+  double min_jacobian = 1, sum_jacobian = 0;
+  double edge_ratio = 0, radius_edge_ratio = 0;
+  std::size_t inverted = 0;
+};
+
+bool is_curved_inverted(const TetMesh& mesh, std::size_t t) {
+  return mesh.order() == 2 && !(min_jacobian_bound(curved_tetrahedron(mesh, t)).lower > 0);
+}
+
+Extremes measure_range(const TetMesh& mesh, std::size_t begin, std::size_t end) {
+  Extremes extremes;
+  for (std::size_t i = begin; i < end; ++i) {
+    const auto& [a, b, c, d] = mesh.tetrahedra[i];
+    const TetShape shape = measure_tetrahedron(mesh.nodes[a], mesh.nodes[b], mesh.nodes[c], mesh.nodes[d]);
+    extremes.min_dihedral_deg = std::min(extremes.min_dihedral_deg, shape.min_dihedral_deg);
+    extremes.max_dihedral_deg = std::max(extremes.max_dihedral_deg, shape.max_dihedral_deg);
+    extremes.min_jacobian = std::min(extremes.min_jacobian, shape.scaled_jacobian);
+    extremes.sum_jacobian += shape.scaled_jacobian;
+    extremes.edge_ratio = std::max(extremes.edge_ratio, shape.edge_ratio.value_or(0));
+    extremes.radius_edge_ratio = std::max(extremes.radius_edge_ratio, shape.radius_edge_ratio.value_or(0));
+    extremes.inverted += shape.scaled_jacobian <= 0 || is_curved_inverted(mesh, i);
+  }
+  return extremes;
+}
+
+}  // namespace
+
+TetShape measure_tetrahedron(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  std::array<Vec3, 4> corner{Vec3::Zero(), b - a, c - a, d - a};
+  double scale = 0;
+  for (const Vec3& p : corner) scale = std::max(scale, p.cwiseAbs().maxCoeff());
+  if (!(scale > 0)) return {0, 180, 0, std::nullopt, std::nullopt};
+  for (Vec3& p : corner) p /= scale;
+
+  std::array<Vec3, 6> edge;
+  std::array<double, 6> length;
+  for (std::size_t e = 0; e < 6; ++e) {
+    const auto& [from, to] = tetrahedron_edges[e];
+    edge[e] = corner[static_cast<std::size_t>(to)] - corner[static_cast<std::size_t>(from)];
+    length[e] = edge[e].norm();
+  }
+  const double six_volumes = corner[1].cross(corner[2]).dot(corner[3]);
+  const auto [shortest, longest] = std::minmax_element(length.begin(), length.end());
+
+  TetShape shape{180, 0, 0, std::nullopt, std::nullopt};
+  for (std::size_t e = 0; e < 6; ++e) {
+    // Between the faces through the edge; |n1 x n2| = |edge| * 6 volumes.
+    const Vec3& from = corner[static_cast<std::size_t>(tetrahedron_edges[e][0])];
+    const Vec3 n1 = edge[e].cross(corner[opposite[e][0]] - from);
+    const Vec3 n2 = edge[e].cross(corner[opposite[e][1]] - from);
+    const double angle = degrees * std::atan2(length[e] * std::abs(six_volumes), n1.dot(n2));
+    shape.min_dihedral_deg = std::min(shape.min_dihedral_deg, angle);
+    shape.max_dihedral_deg = std::max(shape.max_dihedral_deg, angle);
+  }
+
+  double largest_product = 0;
+  for (const auto& edges : edges_at_corner)
+    largest_product = std::max(largest_product, length[edges[0]] * length[edges[1]] * length[edges[2]]);
+  if (largest_product > 0) shape.scaled_jacobian = std::numbers::sqrt2 * six_volumes / largest_product;
+
+  // Circumscribed centre relative to corner 0.
+  const Vec3 numerator = corner[1].squaredNorm() * corner[2].cross(corner[3]) +
+                         corner[2].squaredNorm() * corner[3].cross(corner[1]) +
+                         corner[3].squaredNorm() * corner[1].cross(corner[2]);
+  const double radius = numerator.norm() / (2 * std::abs(six_volumes));
+  if (std::isfinite(radius / *shortest)) {
+    shape.edge_ratio = *longest / *shortest;
+    shape.radius_edge_ratio = radius / *shortest;
+  }
+  return shape;
+}
+
+TetSummary measure_tetrahedra(const TetMesh& mesh) {
+  TetSummary summary;
+  summary.nodes = mesh.nodes.size();
+  summary.tetrahedra = mesh.tetrahedra.size();
+  summary.order = mesh.order();
+  if (mesh.tetrahedra.empty()) return summary;
+  summary.volume = total_volume(mesh);
+
+  // Fixed blocks, joined in their order, so that sums round the same for any number of threads.
+  constexpr std::size_t block_size = 1024;
+  std::vector<Extremes> blocks((mesh.tetrahedra.size() + block_size - 1) / block_size);
+  tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t block) {
+    blocks[block] = measure_range(mesh, block * block_size, std::min(mesh.tetrahedra.size(), (block + 1) * block_size));
+  });
+  summary.min_dihedral_deg = 180;
+  summary.scaled_jacobian.min = 1;
+  for (const Extremes& block : blocks) {
+    summary.min_dihedral_deg = std::min(summary.min_dihedral_deg, block.min_dihedral_deg);
+    summary.max_dihedral_deg = std::max(summary.max_dihedral_deg, block.max_dihedral_deg);
+    summary.scaled_jacobian.min = std::min(summary.scaled_jacobian.min, block.min_jacobian);
+    summary.scaled_jacobian.mean += block.sum_jacobian;
+    summary.edge_ratio = std::max(summary.edge_ratio, block.edge_ratio);
+    summary.radius_edge_ratio = std::max(summary.radius_edge_ratio, block.radius_edge_ratio);
+    summary.inverted += block.inverted;
+  }
+  summary.scaled_jacobian.mean /= static_cast<double>(summary.tetrahedra);
+  return summary;
+}
+
+}  // namespace scan2fea

@@ -1,0 +1,95 @@
+#include "quality/triangle_measures.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace scan2fea {
+namespace {
+
+constexpr double degrees = 180 / std::numbers::pi;
+
+// Partly sorts the values; p rises from call to call, so each continues where the last one stopped.
+double percentile(std::vector<double>& values, std::size_t& sorted_up_to, double p) {
+  const std::size_t index =
+      std::min(values.size() - 1, static_cast<std::size_t>(p * static_cast<double>(values.size())));
+  const auto at = [&](std::size_t i) { return values.begin() + static_cast<std::ptrdiff_t>(i); };
+  if (index >= sorted_up_to) std::nth_element(at(sorted_up_to), at(index), values.end());
+  sorted_up_to = index;
+  return values[index];
+}
+
+}  // namespace
+
+std::optional<TriangleShape> measure_triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
+  // Side k lies opposite corner k.
+  std::array<Vec3, 3> side{c - b, a - c, b - a};
+  const double scale =
+      std::max({side[0].cwiseAbs().maxCoeff(), side[1].cwiseAbs().maxCoeff(), side[2].cwiseAbs().maxCoeff()});
+  if (!(scale > 0)) return std::nullopt;
+  for (Vec3& s : side) s /= scale;
+
+  std::array<double, 3> length{side[0].norm(), side[1].norm(), side[2].norm()};
+  const auto longest = static_cast<std::size_t>(std::max_element(length.begin(), length.end()) - length.begin());
+  // The two shorter sides give the cross product with the smallest rounding error.
+  const double twice_area = side[(longest + 1) % 3].cross(side[(longest + 2) % 3]).norm();
+  const double shortest = *std::min_element(length.begin(), length.end());
+  if (!(shortest > 0) || !(twice_area > 0)) return std::nullopt;
+
+  TriangleShape shape;
+  shape.edge_ratio = length[longest] / shortest;
+  std::array<double, 3> angle;
+  for (std::size_t k = 0; k < 3; ++k)
+    angle[k] = degrees * std::atan2(twice_area, -side[(k + 1) % 3].dot(side[(k + 2) % 3]));
+  const auto [smallest, largest] = std::minmax_element(angle.begin(), angle.end());
+  shape.min_angle_deg = *smallest;
+  shape.max_angle_deg = *largest;
+  // r = area / semiperimeter, R = product of the sides / (4 area)
+  const double perimeter = length[0] + length[1] + length[2];
+  shape.radius_ratio = 4 * (twice_area / length[0] / perimeter) * (twice_area / (length[1] * length[2]));
+  return shape;
+}
+
+TriangleSummary measure_triangles(const SurfaceMesh& mesh) {
+  std::vector<std::optional<TriangleShape>> shapes(mesh.triangles.size());
+  tbb::parallel_for(std::size_t{0}, shapes.size(), [&](std::size_t i) {
+    const Triangle& t = mesh.triangles[i];
+    shapes[i] = measure_triangle(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
+  });
+
+  TriangleSummary summary;
+  std::vector<double> edge_ratios;
+  edge_ratios.reserve(shapes.size());
+  summary.min_angle_deg.min = 180;
+  summary.radius_ratio.min = 1;
+  for (const auto& shape : shapes) {
+    if (!shape) continue;
+    edge_ratios.push_back(shape->edge_ratio);
+    summary.edge_ratio.mean += shape->edge_ratio;
+    summary.edge_ratio.max = std::max(summary.edge_ratio.max, shape->edge_ratio);
+    summary.min_angle_deg.mean += shape->min_angle_deg;
+    summary.min_angle_deg.min = std::min(summary.min_angle_deg.min, shape->min_angle_deg);
+    summary.max_angle_deg = std::max(summary.max_angle_deg, shape->max_angle_deg);
+    summary.radius_ratio.mean += shape->radius_ratio;
+    summary.radius_ratio.min = std::min(summary.radius_ratio.min, shape->radius_ratio);
+  }
+  if (edge_ratios.empty()) summary = {};
+  summary.measured = edge_ratios.size();
+  summary.degenerate = shapes.size() - summary.measured;
+  if (edge_ratios.empty()) return summary;
+
+  const auto count = static_cast<double>(summary.measured);
+  summary.edge_ratio.mean /= count;
+  summary.min_angle_deg.mean /= count;
+  summary.radius_ratio.mean /= count;
+  std::size_t sorted_up_to = 0;
+  summary.edge_ratio.p50 = percentile(edge_ratios, sorted_up_to, 0.50);
+  summary.edge_ratio.p95 = percentile(edge_ratios, sorted_up_to, 0.95);
+  summary.edge_ratio.p99 = percentile(edge_ratios, sorted_up_to, 0.99);
+  return summary;
+}
+
+}  // namespace scan2fea

@@ -1,0 +1,47 @@
+// Shape of triangles, in the measures of Verdict (Stimpson et al., "The Verdict geometric quality library", 2007).
+//
+// Angles come from atan2 of the area against the corner's dot product, which is accurate to the last digits for needles
+// and caps where arc cosines of edge lengths lose half of them; everything is scaled by the triangle first, so that
+// neither the unit nor the distance from the origin matters beyond the coordinates' own rounding.
+//
+// A triangle of zero area (in double precision, after scaling) has no shape: its edge ratio or smallest angle would be
+// infinite or undefined. It is counted in `degenerate` and enters no other figure, so every figure is finite.
+#pragma once
+
+#include "preproc/mesh/surface_mesh.hpp"
+
+#include <cstddef>
+#include <optional>
+
+namespace scan2fea {
+
+struct TriangleShape {
+  double edge_ratio;     // longest edge / shortest edge: 1 for equilateral, 1.414 for a right isosceles triangle
+  double min_angle_deg;  // 60 for equilateral
+  double max_angle_deg;
+  double radius_ratio;  // 2 * inscribed radius / circumscribed radius: 1 for equilateral, 0 for zero area
+};
+
+// Nothing for a triangle of zero area.
+std::optional<TriangleShape> measure_triangle(const Vec3& a, const Vec3& b, const Vec3& c);
+
+struct TriangleSummary {
+  std::size_t measured = 0;    // triangles in the figures below; where it is 0, so are they
+  std::size_t degenerate = 0;  // triangles of zero area
+  // The p-th percentile of n sorted values is the one with index floor(p * n), counted from 0.
+  struct {
+    double mean = 0, p50 = 0, p95 = 0, p99 = 0, max = 0;
+  } edge_ratio;
+  struct {
+    double mean = 0, min = 0;
+  } min_angle_deg;  // of each triangle's smallest angle
+  double max_angle_deg = 0;
+  struct {
+    double mean = 0, min = 0;
+  } radius_ratio;
+};
+
+// O(n), parallel; sums run in the order of the triangles, so the result does not depend on the number of threads.
+TriangleSummary measure_triangles(const SurfaceMesh& mesh);
+
+}  // namespace scan2fea

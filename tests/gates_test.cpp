@@ -1,0 +1,118 @@
+#include "quality/gates.hpp"
+
+#include "preproc/mesh/error.hpp"
+#include "tests/analytic_meshes.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace scan2fea {
+namespace {
+
+Json report_of(const SurfaceMesh& mesh) {
+  Report report;
+  report.surface = measure_surface(mesh);
+  return to_json(report);
+}
+
+bool passes(const std::string& gate, const Json& report) {
+  return all_pass(evaluate_gates({parse_gate(gate)}, report));
+}
+
+TEST(Gates, EveryOperator) {
+  const Json box = report_of(analytic::box({1, 1, 1}, 1));  // 12 faces
+  EXPECT_TRUE(passes("surface.faces<=12", box));
+  EXPECT_FALSE(passes("surface.faces<=11", box));
+  EXPECT_TRUE(passes("surface.faces>=12", box));
+  EXPECT_FALSE(passes("surface.faces>=13", box));
+  EXPECT_TRUE(passes("surface.faces<12.5", box));
+  EXPECT_FALSE(passes("surface.faces<12", box));
+  EXPECT_TRUE(passes("surface.faces>11", box));
+  EXPECT_FALSE(passes("surface.faces>12", box));
+  EXPECT_TRUE(passes("surface.faces==12", box));
+  EXPECT_FALSE(passes("surface.faces==13", box));
+}
+
+TEST(Gates, AFailedGateFailsTheWhole) {
+  const auto results = evaluate_gates({parse_gate("edge_ratio.mean<=1.2"), parse_gate("genus==0")},
+                                      report_of(analytic::box({1, 1, 1}, 1)));
+  ASSERT_EQ(results.size(), 2U);
+  EXPECT_FALSE(results[0].pass);
+  EXPECT_NEAR(results[0].value, std::sqrt(2.0), 1e-12);
+  EXPECT_TRUE(results[1].pass);
+  EXPECT_FALSE(all_pass(results));
+  EXPECT_TRUE(all_pass({}));
+}
+
+TEST(Gates, NamesWithAndWithoutTheSection) {
+  EXPECT_EQ(parse_gate("edge_ratio.mean<=1.2").name, "surface.edge_ratio.mean");
+  EXPECT_EQ(parse_gate("surface.edge_ratio.mean<=1.2").name, "surface.edge_ratio.mean");
+  EXPECT_EQ(parse_gate(" scaled_jacobian.min >= 0.2 ").name, "volume_mesh.scaled_jacobian.min");
+  EXPECT_EQ(parse_gate("hausdorff_pct_diagonal<0.5").limit, 0.5);
+  EXPECT_EQ(parse_gate("deviation.volume_difference_pct>=-1e-3").limit, -1e-3);
+}
+
+TEST(Gates, YesAndNo) {
+  SurfaceMesh open = analytic::sphere(1, 1);
+  EXPECT_TRUE(passes("closed==true", report_of(open)));
+  open.triangles.pop_back();
+  EXPECT_FALSE(passes("closed==true", report_of(open)));
+  EXPECT_TRUE(passes("closed==0", report_of(open)));
+}
+
+TEST(Gates, AnUnknownNameIsAnsweredByTheNearest) {
+  try {
+    parse_gate("edge_rato.mean<=1.2");
+    FAIL();
+  } catch (const WrongUsage& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("surface.edge_ratio.mean"));
+    EXPECT_EQ(error.parts().value, "edge_rato.mean");
+  }
+  EXPECT_THROW(parse_gate("surface.edge_ratio<=1.2"), WrongUsage);
+}
+
+TEST(Gates, AnAmbiguousNameIsRefused) {
+  try {
+    parse_gate("volume>0");
+    FAIL();
+  } catch (const WrongUsage& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("surface.volume or volume_mesh.volume"));
+  }
+}
+
+TEST(Gates, WhatIsNoGateIsRefused) {
+  for (const char* text : {"", "edge_ratio.mean", "edge_ratio.mean<=", "<=1", "edge_ratio.mean<=1.2x",
+                           "edge_ratio.mean=1", "edge_ratio.mean<=nan", "edge_ratio.mean<=inf",
+                           "edge_ratio.mean<=1e999", "edge_ratio.mean<==1", "edge_ratio.mean<=1,2"})
+    EXPECT_THROW(parse_gate(text), WrongUsage) << text;
+}
+
+TEST(Gates, AMissingFigureIsNeverPassed) {
+  const Json without_reference = report_of(analytic::sphere(1, 1));
+  try {
+    passes("rms_pct_diagonal<=1", without_reference);
+    FAIL();
+  } catch (const WrongUsage& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("--reference"));
+  }
+  EXPECT_THROW(passes("scaled_jacobian.min>=0", without_reference), WrongUsage);
+
+  SurfaceMesh open = analytic::sphere(1, 1);
+  open.triangles.pop_back();
+  EXPECT_THROW(passes("genus<=100", report_of(open)), WrongUsage);
+  EXPECT_THROW(passes("surface.volume<=1e9", report_of(open)), WrongUsage);
+}
+
+TEST(Gates, JsonHoldsNameValueLimitAndPass) {
+  const Json json = to_json(evaluate_gates({parse_gate("faces<=5")}, report_of(analytic::box({1, 1, 1}, 1))));
+  ASSERT_EQ(json.size(), 1U);
+  EXPECT_EQ(json[0]["name"], "surface.faces");
+  EXPECT_EQ(json[0]["operator"], "<=");
+  EXPECT_EQ(json[0]["value"], 12);
+  EXPECT_EQ(json[0]["limit"], 5);
+  EXPECT_EQ(json[0]["pass"], false);
+}
+
+}  // namespace
+}  // namespace scan2fea
