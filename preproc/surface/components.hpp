@@ -1,0 +1,22 @@
+// Which parts of a surface hang together, and the topology of each.
+#pragma once
+
+#include "preproc/mesh/surface_mesh.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace scan2fea {
+
+struct Components {
+  std::uint32_t count = 0;
+  std::vector<std::uint32_t> of_vertex;  // numbered in the order of their first vertices
+};
+
+// Connected by sharing vertices; a vertex without a triangle is a component of its own. Nearly linear.
+Components find_components(const SurfaceMesh& mesh);
+
+// V - E + F per component, where every edge has two triangles: 2 - 2 genus of a closed manifold one. Linear.
+std::vector<long> euler_characteristics(const SurfaceMesh& mesh, const Components& components);
+
+}  // namespace scan2fea

@@ -1,0 +1,107 @@
+#include "preproc/surface/lattice.hpp"
+
+#include "preproc/surface/components.hpp"
+#include "preproc/surface/extract_lattice.hpp"
+#include "preproc/surface/field_graph.hpp"
+#include "preproc/surface/parallel_blocks.hpp"
+#include "preproc/surface/refined_scan.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace scan2fea {
+namespace {
+
+constexpr double equilateral_area = 0.43301270189221932;  // sqrt(3)/4, of edge length 1
+// Positions cannot follow lengths exactly everywhere and fall short rather than over, so the lattice comes out with
+// fewer triangles than were asked for. Asking for more costs nothing; what is then too many is collapsed.
+constexpr double surplus = 1.06;
+// Farther off than this, collapses and splits would spoil the lattice: it is laid anew with the lengths corrected.
+constexpr double largest_miscount = 0.03;
+constexpr int attempts = 3;
+
+double lattice_triangles(const GraphLevel& level) {
+  return sum_over_blocks(level.size(), [&](std::size_t first, std::size_t last) {
+    double sum = 0;
+    for (std::size_t i = first; i < last; ++i) sum += level.areas[i] * std::exp(-2 * level.log_length[i]);
+    return sum / equilateral_area;
+  });
+}
+
+void scale_lengths(FieldGraph& graph, double factor) {
+  for (GraphLevel& level : graph.levels)
+    for (double& phi : level.log_length) phi += std::log(factor);
+}
+
+// Empty where each component of the scan has one of the same Euler characteristic in the result.
+std::string compare_topology(const SurfaceMesh& scan, const LatticeResult& result) {
+  const Components before = find_components(scan), after = find_components(result.mesh);
+  if (after.count != before.count)
+    return "the lattice has " + std::to_string(after.count) + " components instead of " + std::to_string(before.count);
+  const std::vector<long> euler_before = euler_characteristics(scan, before);
+  const std::vector<long> euler_after = euler_characteristics(result.mesh, after);
+  for (std::size_t v = 0; v < scan.vertices.size(); ++v) {
+    const std::uint32_t c = before.of_vertex[v], d = after.of_vertex[result.vertex_of_scan_vertex[v]];
+    if (euler_before[c] != euler_after[d])
+      return "component " + std::to_string(c) + " has genus " + std::to_string((2 - euler_after[d]) / 2) +
+             " in the lattice instead of " + std::to_string((2 - euler_before[c]) / 2);
+  }
+  return {};
+}
+
+double share_of_valence_six(const SurfaceMesh& mesh) {
+  std::vector<int> valence(mesh.vertices.size(), 0);
+  for (const Triangle& t : mesh.triangles)
+    for (const std::uint32_t v : t) ++valence[v];
+  return static_cast<double>(std::count(valence.begin(), valence.end(), 6)) / static_cast<double>(valence.size());
+}
+
+}  // namespace
+
+LatticeResult remesh_by_lattice(const SurfaceMesh& scan, const LatticeOptions& options, const Progress& progress) {
+  progress("sizing", 0);
+  const SizingField sizing = compute_sizing_field(scan, options.sizing);
+  const double wanted = predicted_triangles(scan, sizing);
+  progress("graph", 0.15);
+  const RefinedScan refined = refine_scan(scan, sizing, options.longest_scan_edge);
+  FieldGraph graph = build_field_graph(refined);
+  progress("orientation", 0.3);
+  const OrientationField orientation = compute_orientation_field(graph, options.orientation);
+  relax_scale(graph, orientation, options.scale);
+
+  LatticeResult result;
+  ExtractedLattice extracted;
+  double asked = surplus * wanted;
+  for (int attempt = 0; attempt < attempts; ++attempt) {
+    scale_lengths(graph, std::sqrt(lattice_triangles(graph.levels.front()) / asked));
+    progress("positions", 0.4);
+    const PositionField position = compute_position_field(graph, orientation, options.position);
+    progress("extraction", 0.85);
+    extracted = extract_lattice(refined, graph.levels.front(), orientation, position);
+    const double excess = static_cast<double>(extracted.mesh.triangles.size()) / wanted - 1;
+    if (std::abs(excess) <= largest_miscount) break;
+    asked /= 1 + excess;
+  }
+  if (!extracted.manifold) {
+    result.failure = "the lattice is not a closed manifold: the shape is finer than its triangles";
+    return result;
+  }
+
+  result.mesh = std::move(extracted.mesh);
+  result.edge_length.resize(result.mesh.vertices.size());
+  const GraphLevel& finest = graph.levels.front();
+  for (std::size_t i = 0; i < finest.size(); ++i)
+    result.edge_length[extracted.vertex_of_node[i]] = std::exp(finest.log_length[i]);
+  progress("connectivity", 0.95);
+  ConnectivityOptions connectivity = options.connectivity;
+  connectivity.triangles = static_cast<std::size_t>(std::lround(wanted));
+  const ConnectivityResult cleaned = improve_connectivity(result.mesh, result.edge_length, connectivity);
+  result.vertex_of_scan_vertex.resize(scan.vertices.size());
+  for (std::size_t v = 0; v < scan.vertices.size(); ++v)
+    result.vertex_of_scan_vertex[v] = cleaned.vertex_of_old[extracted.vertex_of_node[refined.scan_vertex_at[v]]];
+  result.failure = compare_topology(scan, result);
+  result.regular_share = share_of_valence_six(result.mesh);
+  return result;
+}
+
+}  // namespace scan2fea

@@ -1,0 +1,52 @@
+// The lattice chain up to the connectivity: lays a lattice of equilateral triangles on the scan and extracts it. The
+// fitting of its vertices to the scan follows (shape_fit.hpp).
+// Sources: Jakob et al. (2015) for fields over a hierarchy and extraction by them; Knöppel et al. (2013) for
+// directions; the conformal coupling of directions and sizes, their relaxation and the intrinsic lattice coordinates
+// are our own.
+#pragma once
+
+#include "preproc/mesh/progress.hpp"
+#include "preproc/mesh/surface_mesh.hpp"
+#include "preproc/surface/connectivity.hpp"
+#include "preproc/surface/orientation_field.hpp"
+#include "preproc/surface/position_field.hpp"
+#include "preproc/surface/scale_relaxation.hpp"
+#include "preproc/surface/sizing_field.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace scan2fea {
+
+struct LatticeOptions {
+  SizingOptions sizing;  // and how many triangles
+  // Scan edges longer than this times the wanted edge length are split, 0.2 to 0.7: longer ones leave holes, shorter
+  // ones cost time.
+  double longest_scan_edge = 0.7;
+  OrientationOptions orientation;
+  ScaleRelaxationOptions scale;
+  PositionOptions position;
+  ConnectivityOptions connectivity;  // its `triangles` is set from `sizing`
+};
+
+struct LatticeResult {
+  // Why there is no mesh: "" where there is one. Then the caller takes another way.
+  std::string failure;
+  SurfaceMesh mesh;
+  std::vector<double> edge_length;                   // wanted, per vertex of `mesh`
+  std::vector<std::uint32_t> vertex_of_scan_vertex;  // the vertex of `mesh` near each vertex of the scan
+  double regular_share = 0;                          // of the vertices, those of valence 6
+};
+
+// Precondition: closed, manifold, oriented, free of self-intersections (see repair); any number of components, any
+// genus. `mesh` is closed and manifold, each component has the genus of the scan's, the number of triangles is the
+// wanted one within 0.5 % (unless components are so small that they need more); all of this is verified, and reported
+// as `failure` where it cannot be had. Not guaranteed: freedom from self-intersections where the lattice is coarser
+// than the shape. Throws WrongUsage for options out of range, InvalidInput for a scan without area, Cancelled. Linear
+// but for sorts; at most 250 bytes per triangle of the scan, where few edges need splitting. Deterministic for any
+// number of threads.
+LatticeResult remesh_by_lattice(const SurfaceMesh& scan, const LatticeOptions& options, const Progress& progress = {});
+
+}  // namespace scan2fea

@@ -1,0 +1,236 @@
+#include "preproc/surface/sizing_field.hpp"
+
+#include "preproc/mesh/error.hpp"
+#include "preproc/surface/adjacency.hpp"
+#include "preproc/surface/components.hpp"
+#include "preproc/surface/parallel_blocks.hpp"
+#include "preproc/surface/tangent_frame.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <queue>
+#include <string>
+
+namespace scan2fea {
+namespace {
+
+constexpr double equilateral_area = 0.43301270189221932;  // sqrt(3)/4, of edge length 1
+
+// What all steps read of the scan.
+struct Scan {
+  explicit Scan(const SurfaceMesh& surface) : mesh(surface), stars(surface), areas(surface.vertices.size(), 0.0) {
+    for (const Triangle& t : mesh.triangles) {
+      const double third = area_vector(mesh, t).norm() / 6;
+      area += 3 * third;
+      for (const std::uint32_t v : t) areas[v] += third;
+    }
+  }
+
+  template <class Visit>
+  void for_each_neighbour(std::uint32_t vertex, const Visit& visit) const {
+    for (const std::uint32_t corner : stars.corners(vertex)) visit(mesh.triangles[corner / 3][(corner + 1) % 3]);
+  }
+
+  const SurfaceMesh& mesh;
+  VertexStars stars;
+  std::vector<double> areas;  // a third of the triangles around each vertex
+  double area = 0;
+};
+
+void check(const SizingOptions& options, const SurfaceMesh& mesh) {
+  const auto require = [](bool good, const char* what, double value, const char* limit) {
+    if (!good)
+      throw WrongUsage({.what = what, .where = "sizing", .value = std::to_string(value), .limit = limit, .advice = {}});
+  };
+  require(options.triangles > 0, "number of triangles out of range", options.triangles, "above 0");
+  require(options.strength >= 0 && options.strength <= 1, "strength out of range", options.strength, "0 to 1");
+  require(options.smallest > 0 && options.smallest <= 1, "smallest edge length out of range", options.smallest,
+          "0 to 1");
+  require(options.largest >= 1, "largest edge length out of range", options.largest, "1 or more");
+  require(options.gradation >= 0.02 && options.gradation <= 1, "gradation out of range", options.gradation,
+          "0.02 to 1");
+  require(options.factors.empty() || options.factors.size() == mesh.vertices.size(), "one factor per vertex needed",
+          static_cast<double>(options.factors.size()), "the number of vertices");
+}
+
+// One sweep of averaging: half of the old value, half of the neighbours' mean.
+template <class Value>
+void average_with_neighbours(const Scan& scan, std::vector<Value>& values, int sweeps) {
+  std::vector<Value> next(values.size());
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    for_each_block(values.size(), [&](std::size_t first, std::size_t last) {
+      for (std::size_t v = first; v < last; ++v) {
+        Value sum = values[v] * 0;
+        double count = 0;
+        scan.for_each_neighbour(static_cast<std::uint32_t>(v), [&](std::uint32_t w) {
+          sum += values[w];
+          ++count;
+        });
+        next[v] = count > 0 ? Value((values[v] + sum * (1 / count)) * 0.5) : values[v];
+      }
+    });
+    values.swap(next);
+  }
+}
+
+// Squared Frobenius norm of the shape operator, k1^2 + k2^2, per vertex: the symmetric 2 x 2 matrix S with S d = dn in
+// the least-squares sense over the star's edges d and the changes dn of the normal along them.
+std::vector<double> squared_curvature(const Scan& scan, const std::vector<Vec3>& normals) {
+  std::vector<double> result(normals.size(), 0.0);
+  for_each_block(normals.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t v = first; v < last; ++v) {
+      const TangentFrame frame(normals[v]);
+      double xx = 0, xy = 0, yy = 0, bp = 0, bq = 0, br = 0;
+      scan.for_each_neighbour(static_cast<std::uint32_t>(v), [&](std::uint32_t w) {
+        const Vec3 edge = scan.mesh.vertices[w] - scan.mesh.vertices[v];
+        const double length2 = edge.squaredNorm();
+        if (!(length2 > 0)) return;
+        const Vec3 turn = normals[w] - normals[v];
+        const double x = edge.dot(frame.x), y = edge.dot(frame.y);
+        const double nx = turn.dot(frame.x), ny = turn.dot(frame.y);
+        xx += x * x / length2;
+        xy += x * y / length2;
+        yy += y * y / length2;
+        bp += x * nx / length2;
+        bq += (y * nx + x * ny) / length2;
+        br += y * ny / length2;
+      });
+      Eigen::Matrix3d m;
+      m << xx, xy, 0, xy, xx + yy, xy, 0, xy, yy;
+      // A star whose edges all run in one direction says nothing about the other: a little damping picks no curvature.
+      m.diagonal().array() += 1e-3 * (xx + yy);
+      if (!(xx + yy > 0)) continue;
+      const Vec3 s = m.ldlt().solve(Vec3(bp, bq, br));
+      result[v] = s[0] * s[0] + 2 * s[1] * s[1] + s[2] * s[2];
+    }
+  });
+  return result;
+}
+
+// Natural logarithm of the edge length up to a constant, from curvature.
+std::vector<double> log_length_from_curvature(const Scan& scan, double uniform_length, int sweeps_factor,
+                                              double strength) {
+  std::vector<Vec3> normals = vertex_normals(scan.mesh);
+  average_with_neighbours(scan, normals, 4 * sweeps_factor);
+  for (Vec3& n : normals) n.normalize();
+  std::vector<double> curvature2 = squared_curvature(scan, normals);
+  average_with_neighbours(scan, curvature2, 5 * sweeps_factor);
+
+  std::vector<double> sorted = curvature2;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  // On a part that is mostly flat the median is zero: radii above 20 edge lengths count as flat.
+  const double offset = std::max(*middle, 0.0025 / (uniform_length * uniform_length));
+  std::vector<double> phi(curvature2.size());
+  for (std::size_t v = 0; v < phi.size(); ++v) phi[v] = -0.5 * strength * std::log(curvature2[v] + offset);
+  return phi;
+}
+
+// h_i <= h_j + gradation |x_i - x_j| along the scan's edges; lengths only fall. Dijkstra from the vertices that bind.
+void limit_gradation(const Scan& scan, double gradation, std::vector<double>& length) {
+  using Entry = std::pair<double, std::uint32_t>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  const auto relax = [&](std::uint32_t v) {
+    scan.for_each_neighbour(v, [&](std::uint32_t w) {
+      const double limit = length[v] + gradation * (scan.mesh.vertices[w] - scan.mesh.vertices[v]).norm();
+      if (limit < length[w] * (1 - 1e-9)) {
+        length[w] = limit;
+        queue.emplace(limit, w);
+      }
+    });
+  };
+  // In ascending order of length, as the queue would give them; most vertices bind nobody.
+  std::vector<std::uint32_t> order;
+  for (std::uint32_t v = 0; v < length.size(); ++v) {
+    bool binds = false;
+    scan.for_each_neighbour(v, [&](std::uint32_t w) {
+      binds = binds ||
+              length[v] + gradation * (scan.mesh.vertices[w] - scan.mesh.vertices[v]).norm() < length[w] * (1 - 1e-9);
+    });
+    if (binds) queue.emplace(length[v], v);
+  }
+  while (!queue.empty()) {
+    const auto [at, v] = queue.top();
+    queue.pop();
+    if (at <= length[v]) relax(v);
+  }
+}
+
+double count_of(const Scan& scan, const std::vector<double>& length, std::vector<double>* per_component,
+                const std::vector<std::uint32_t>& component) {
+  double count = 0;
+  for (std::size_t v = 0; v < length.size(); ++v) {
+    const double here = scan.areas[v] / (equilateral_area * length[v] * length[v]);
+    count += here;
+    if (per_component) (*per_component)[component[v]] += here;
+  }
+  return count;
+}
+
+// Gives small components their triangles; the rest shares what remains.
+void scale_to_count(const Scan& scan, const SizingOptions& options, const Components& components,
+                    std::vector<double>& length) {
+  for (int round = 0; round < 4; ++round) {
+    std::vector<double> share(components.count, 0.0);
+    const double count = count_of(scan, length, &share, components.of_vertex);
+    const double scale = std::sqrt(count / options.triangles);
+    for (std::size_t v = 0; v < length.size(); ++v) {
+      const double there = share[components.of_vertex[v]] / (scale * scale);
+      length[v] *= scale * std::min(1.0, std::sqrt(there / options.triangles_per_component));
+    }
+  }
+}
+
+}  // namespace
+
+double predicted_triangles(const SurfaceMesh& scan, const SizingField& field) {
+  double count = 0;
+  for (const Triangle& t : scan.triangles) {
+    const double third = area_vector(scan, t).norm() / 6;
+    for (const std::uint32_t v : t) count += third / (equilateral_area * field.edge_length[v] * field.edge_length[v]);
+  }
+  return count;
+}
+
+SizingField compute_sizing_field(const SurfaceMesh& mesh, const SizingOptions& options) {
+  check(options, mesh);
+  const Scan scan(mesh);
+  if (!(scan.area > 0)) {
+    throw InvalidInput({.what = "the surface has no area",
+                        .where = {},
+                        .value = std::to_string(scan.area),
+                        .limit = "above 0",
+                        .advice = "check the file and its units"});
+  }
+  const double uniform_length = std::sqrt(scan.area / (equilateral_area * options.triangles));
+  // Mean edge of the scan if its triangles were equilateral. Averaging over k rings reaches sqrt(k) edges: the number
+  // of sweeps that is one unit of width where the scan has about eight triangles for one of the result.
+  const double scan_length = std::sqrt(scan.area / (equilateral_area * static_cast<double>(mesh.triangles.size())));
+  const double density = uniform_length / scan_length;
+  const int sweeps_factor = static_cast<int>(std::clamp(std::lround(density * density / 8), 1L, 4L));
+
+  std::vector<double> phi(mesh.vertices.size(), 0.0);
+  if (options.sizing != Sizing::uniform)
+    phi = log_length_from_curvature(scan, uniform_length, sweeps_factor, options.strength);
+  for (std::size_t v = 0; v < options.factors.size(); ++v) phi[v] += std::log(options.factors[v]);
+
+  const Components components = find_components(mesh);
+  std::vector<double> length(phi.size());
+  for (std::size_t v = 0; v < phi.size(); ++v) length[v] = std::exp(phi[v]);
+  // Clamps and gradation are relative to the scale, and the scale to the clamped and graded field: twice settles it.
+  for (int round = 0; round < 2; ++round) {
+    scale_to_count(scan, options, components, length);
+    for (double& h : length) h = std::clamp(h, options.smallest * uniform_length, options.largest * uniform_length);
+    limit_gradation(scan, options.gradation, length);
+    if (round == 0 && options.sizing != Sizing::uniform) {
+      for (std::size_t v = 0; v < phi.size(); ++v) phi[v] = std::log(length[v]);
+      average_with_neighbours(scan, phi, 10 * sweeps_factor);
+      for (std::size_t v = 0; v < phi.size(); ++v) length[v] = std::exp(phi[v]);
+    }
+  }
+  scale_to_count(scan, options, components, length);
+  return {std::move(length)};
+}
+
+}  // namespace scan2fea
