@@ -1,0 +1,38 @@
+// Abaqus and CalculiX input decks (.inp): the mesh and its sets, to be included by the deck that holds the analysis.
+//
+// Written: *NODE, *ELEMENT of C3D4 or C3D10, and these sets (upper case, as CalculiX stores them):
+//   NALL                  all nodes
+//   EALL                  all elements
+//   SALL                  *SURFACE of element faces, the whole boundary
+//   SALL_S1 .. SALL_S4    the elements whose face S1 .. S4 lies on the boundary; SALL is made of these
+//   SALL_NODES            the nodes of the boundary, mid-edge nodes included, for supports and prescribed displacements
+// Only comments precede *NODE, so `*INCLUDE, INPUT=part.inp` works at any place of a deck.
+//
+// CalculiX 2.20 reads at most 20 characters of a number, 10 of an integer and 132 of a line; all lines keep to that.
+#pragma once
+
+#include "preproc/mesh/tet_mesh.hpp"
+
+#include <filesystem>
+#include <string>
+
+namespace scan2fea {
+
+struct InpOptions {
+  std::string unit;  // of length, "mm"; written as a comment, since a deck has no field for it. Empty: not written.
+  std::string provenance;  // where the mesh comes from, one line of text for the header's comment. Empty: not written.
+};
+
+// Node and element numbers are the indices of `mesh` plus one. Coordinates are written with the fewest digits that
+// round-trip or, where these take more than 20 characters, with the most that fit (see write_number).
+// Precondition: mesh.boundary lists the boundary faces. Throws IoError; an existing file is then untouched. O(n).
+void write_inp(const TetMesh& mesh, const std::filesystem::path& file, const InpOptions& options = {});
+
+// Reads the tetrahedra of a deck: *NODE and *ELEMENT of C3D4.. and C3D10.. types (and their DC3D.. heat variants), any
+// numbering, several blocks, continuation lines. Elements of lines and surfaces, and all other keywords, are passed
+// over. The nodes that tetrahedra use are kept, in the order of their numbers; the elements in the order of the file.
+// Throws InvalidInput naming file and line: unreadable, no tetrahedra, solid elements of another shape, orders mixed,
+// a number that does not parse, a node that is missing or defined twice. *INCLUDE is not followed.
+TetMesh read_inp(const std::filesystem::path& file);
+
+}  // namespace scan2fea

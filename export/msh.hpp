@@ -1,0 +1,31 @@
+// Gmsh mesh files (.msh), versions 2.2 and 4.1, through the Gmsh SDK.
+//
+// The volume is the physical group EALL, the boundary triangles (facing outwards) the physical group SALL. MSH has no
+// node sets: NALL is every node of the file. A file has no field for a unit or a title either.
+//
+// The SDK keeps its state in the process. Calls of these functions exclude one another; a program that uses the SDK
+// itself must not call them between its own gmsh::initialize and gmsh::finalize.
+#pragma once
+
+#include "preproc/mesh/tet_mesh.hpp"
+
+#include <filesystem>
+
+namespace scan2fea {
+
+enum class MshVersion { v2_2, v4_1 };
+
+struct MshOptions {
+  MshVersion version = MshVersion::v4_1;  // Gmsh's own default; older readers (Elmer, Code_Aster, SU2) want 2.2
+};
+
+// ASCII, since not every reader takes binary files; Gmsh prints 16 digits, so a coordinate may change in its last bit.
+// Node and element numbers are the indices of `mesh` plus one; in elements, triangles come after tetrahedra.
+// Precondition: mesh.boundary lists the boundary faces. Throws IoError; an existing file is then untouched.
+void write_msh(const TetMesh& mesh, const std::filesystem::path& file, const MshOptions& options = {});
+
+// Reads the tetrahedra of an MSH file, ASCII or binary. The nodes that tetrahedra use are kept, in the order of their
+// numbers. Throws InvalidInput: unreadable, not MSH, no tetrahedra, solid elements of another shape, orders mixed.
+TetMesh read_msh(const std::filesystem::path& file);
+
+}  // namespace scan2fea

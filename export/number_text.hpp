@@ -1,0 +1,17 @@
+// Numbers in the form that fixed-width readers take.
+#pragma once
+
+#include <cstddef>
+
+namespace scan2fea {
+
+// CalculiX reads this many characters of a number.
+inline constexpr std::size_t longest_number = 20;
+
+// Writes `value` to `text` (room for `longest_number` characters, no terminator) and returns the end: the shortest
+// form that reads back to the same bits or, where that is longer than `longest_number`, the form with the most
+// significant digits that fits: at least 15 from 1e-9 to 1e18, at least 13 elsewhere.
+// Precondition: `value` is finite.
+char* write_number(char* text, double value);
+
+}  // namespace scan2fea
