@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <stdlib.h>  // mkdtemp
 #include <string>
+#include <string_view>
 
 namespace scan2fea {
 
@@ -26,6 +27,14 @@ class TemporaryFolder {
 
   std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
   const std::filesystem::path& path() const { return path_; }
+
+  // The path of a new file with this content. A file that is truncated and written again is flushed to the disk by
+  // some file systems when it is closed; one that is removed first is not, which makes tests of many files fast.
+  std::filesystem::path file(const std::string& name, std::string_view content) const {
+    std::filesystem::remove(path_ / name);
+    std::ofstream(path_ / name, std::ios::binary) << content;
+    return path_ / name;
+  }
 
  private:
   std::filesystem::path path_;

@@ -1,0 +1,142 @@
+#include "preproc/mesh/output_file.hpp"
+
+#include "preproc/mesh/error.hpp"
+#include "tests/temporary_folder.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+namespace scan2fea {
+namespace {
+
+using testing::HasSubstr;
+
+std::size_t files_in(const TemporaryFolder& folder) {
+  return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder.path()), {}));
+}
+
+TEST(OutputFile, AppearsWhenCommitted) {
+  const TemporaryFolder folder;
+  {
+    OutputFile output(folder / "part.inp");
+    output.stream() << "all of it";
+    EXPECT_FALSE(std::filesystem::exists(folder / "part.inp"));
+    output.commit();
+  }
+  EXPECT_EQ(contents(folder / "part.inp"), "all of it");
+  EXPECT_EQ(files_in(folder), 1u);
+}
+
+TEST(OutputFile, LeavesNothingBehindAFailure) {
+  const TemporaryFolder folder;
+  folder.file("part.inp", "what stood there before");
+  EXPECT_THROW(
+      {
+        OutputFile output(folder / "part.inp");
+        output.stream() << "half of i" << std::flush;
+        throw Cancelled();
+      },
+      Cancelled);
+  EXPECT_EQ(contents(folder / "part.inp"), "what stood there before");
+  EXPECT_EQ(files_in(folder), 1u);
+}
+
+TEST(OutputFile, ReplacesTheFileThatStoodThere) {
+  const TemporaryFolder folder;
+  OutputFile output(folder.file("part.inp", "a longer text than the new one"));
+  output.stream() << "new";
+  output.commit();
+  EXPECT_EQ(contents(folder / "part.inp"), "new");
+}
+
+TEST(OutputFile, TwoOfOneTargetDoNotMeet) {
+  const TemporaryFolder folder;
+  OutputFile first(folder / "part.inp");
+  OutputFile second(folder / "part.inp");
+  EXPECT_NE(first.temporary_path(), second.temporary_path());
+  first.stream() << "first";
+  second.stream() << "second";
+  second.commit();
+  first.commit();
+  EXPECT_EQ(contents(folder / "part.inp"), "first");
+}
+
+TEST(OutputFile, TemporaryKeepsFolderAndExtension) {
+  const TemporaryFolder folder;
+  const OutputFile output(folder / "part.v2.msh");
+  EXPECT_EQ(output.temporary_path().extension(), ".msh");
+  EXPECT_EQ(output.temporary_path().parent_path(), folder.path());
+}
+
+TEST(OutputFile, TakesWhatAnotherWriterWroteAtItsPath) {
+  const TemporaryFolder folder;
+  OutputFile output(folder / "part.msh");
+  std::ofstream(output.temporary_path()) << "by another library";
+  output.commit();
+  EXPECT_EQ(contents(folder / "part.msh"), "by another library");
+}
+
+TEST(OutputFile, HasThePermissionsOfAnyNewFile) {
+  const TemporaryFolder folder;
+  OutputFile output(folder / "part.inp");
+  output.commit();
+  const auto any = std::filesystem::status(folder.file("any", "")).permissions();
+  EXPECT_EQ(std::filesystem::status(folder / "part.inp").permissions(), any);
+}
+
+TEST(OutputFile, WritesThroughALink) {
+  const TemporaryFolder folder;
+  folder.file("real.inp", "old");
+  std::filesystem::create_symlink(folder / "real.inp", folder / "link.inp");
+  OutputFile output(folder / "link.inp");
+  output.stream() << "new";
+  output.commit();
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link.inp"));
+  EXPECT_EQ(contents(folder / "real.inp"), "new");
+}
+
+TEST(OutputFile, RefusesAMissingFolder) {
+  const TemporaryFolder folder;
+  try {
+    OutputFile output(folder / "missing/part.inp");
+    FAIL();
+  } catch (const IoError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("missing/part.inp"));
+    EXPECT_EQ(error.exit_code(), 6);
+  }
+}
+
+TEST(OutputFile, RefusesDirectoriesAndDevices) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "part.inp");
+  EXPECT_THROW(OutputFile(folder / "part.inp"), IoError);
+  EXPECT_THROW(OutputFile("/dev/null"), IoError);
+}
+
+TEST(OutputFile, TellsThatTheDiskIsFull) {
+  const TemporaryFolder folder;
+  folder.file("part.inp", "old");
+  // A limit on the size of files fails a write as a full disk does.
+  struct rlimit before {};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
+  struct rlimit small = before;
+  small.rlim_cur = 1000;
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+  {
+    OutputFile output(folder / "part.inp");
+    output.stream() << std::string(100'000, 'x');
+    EXPECT_THROW(output.commit(), IoError);
+  }
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, old_handler);
+  EXPECT_EQ(contents(folder / "part.inp"), "old");
+  EXPECT_EQ(files_in(folder), 1u);
+}
+
+}  // namespace
+}  // namespace scan2fea
