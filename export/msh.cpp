@@ -182,9 +182,10 @@ void require_msh(const std::filesystem::path& file) {
   if (std::filesystem::is_directory(file, error)) fail(file, "is a directory");
   std::ifstream stream(file);
   if (!stream) fail(file, "cannot be read");
-  std::string line;
-  std::getline(stream, line);  // Gmsh would take a file that begins with anything else for a script, and run it
-  if (!line.starts_with("$MeshFormat") && !line.starts_with("$Comments"))
+  std::string start(11, '\0');
+  stream.read(start.data(), static_cast<std::streamsize>(start.size()));
+  // Gmsh would take a file that begins with anything else for a script, and run it.
+  if (!start.starts_with("$MeshFormat") && !start.starts_with("$Comments"))
     fail(file, "is not a Gmsh mesh file: does not begin with $MeshFormat");
 }
 
