@@ -1,13 +1,10 @@
 #include "export/msh.hpp"
-
-#include "export/raw_mesh.hpp"
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/output_file.hpp"
 
 #include <gmsh.h>
 
 #include <array>
-#include <fstream>
 #include <mutex>
 #include <numeric>
 #include <stdlib.h>  // mkdtemp
@@ -63,8 +60,7 @@ std::string current_exception_text() {
   }
 }
 
-// A folder of our own that holds a link `mesh.msh` to the file. Gmsh tells formats by the extension, in lower case, and
-// runs the options file that lies beside a mesh, which must not happen on reading somebody's mesh.
+// A folder of our own that holds a link `mesh.msh` to the file: Gmsh tells the format by the extension, in lower case.
 class PrivateLink {
  public:
   explicit PrivateLink(const std::filesystem::path& file) {
@@ -168,54 +164,6 @@ void build_model(const TetMesh& mesh, MshVersion version) {
   gmsh::model::setPhysicalName(3, gmsh::model::addPhysicalGroup(3, {volume}), "EALL");
 }
 
-[[noreturn]] void fail(const std::filesystem::path& file, std::string what, std::string value = {},
-                       std::string advice = {}) {
-  throw InvalidInput({.what = std::move(what),
-                      .where = file.string(),
-                      .value = std::move(value),
-                      .limit = {},
-                      .advice = std::move(advice)});
-}
-
-void require_msh(const std::filesystem::path& file) {
-  std::error_code error;
-  if (std::filesystem::is_directory(file, error)) fail(file, "is a directory");
-  std::ifstream stream(file);
-  if (!stream) fail(file, "cannot be read");
-  std::string start(11, '\0');
-  stream.read(start.data(), static_cast<std::streamsize>(start.size()));
-  // Gmsh would take a file that begins with anything else for a script, and run it.
-  if (!start.starts_with("$MeshFormat") && !start.starts_with("$Comments"))
-    fail(file, "is not a Gmsh mesh file: does not begin with $MeshFormat");
-}
-
-RawMesh gather(const std::filesystem::path& file) {
-  RawMesh raw;
-  std::vector<std::size_t> node_tags;
-  std::vector<double> coordinates, unused;
-  gmsh::model::mesh::getNodes(node_tags, coordinates, unused, -1, -1, false, false);
-  raw.node_numbers.assign(node_tags.begin(), node_tags.end());
-  for (std::size_t i = 0; i + 2 < coordinates.size(); i += 3)
-    raw.nodes.emplace_back(coordinates[i], coordinates[i + 1], coordinates[i + 2]);
-
-  std::vector<int> types;
-  std::vector<std::vector<std::size_t>> element_tags, element_nodes;
-  gmsh::model::mesh::getElements(types, element_tags, element_nodes, 3);
-  for (std::size_t i = 0; i < types.size(); ++i) {
-    if (types[i] != tetrahedron_4 && types[i] != tetrahedron_10)
-      fail(file, "elements are not tetrahedra of first or second order", "Gmsh type " + std::to_string(types[i]));
-    if (!raw.corners.empty()) fail(file, "holds tetrahedra of first and of second order");
-    const std::vector<std::size_t>& nodes = element_nodes[i];
-    const std::size_t per_element = types[i] == tetrahedron_10 ? 10 : 4;
-    for (std::size_t e = 0; e + per_element <= nodes.size(); e += per_element) {
-      raw.corners.insert(raw.corners.end(), {nodes[e], nodes[e + 1], nodes[e + 2], nodes[e + 3]});
-      if (per_element == 10)
-        for (const std::size_t k : gmsh_mid_edges) raw.mid_edges.push_back(nodes[e + 4 + k]);
-    }
-  }
-  return raw;
-}
-
 }  // namespace
 
 void write_msh(const TetMesh& mesh, const std::filesystem::path& file, const MshOptions& options) {
@@ -236,24 +184,6 @@ void write_msh(const TetMesh& mesh, const std::filesystem::path& file, const Msh
                    .advice = {}});
   }
   output.commit();
-}
-
-TetMesh read_msh(const std::filesystem::path& file) {
-  require_msh(file);
-  RawMesh raw;
-  try {
-    const PrivateLink link(file);
-    const GmshSession session;
-    gmsh::open(link.path().string());
-    raw = gather(file);
-  } catch (const Error&) {
-    throw;
-  } catch (...) {
-    fail(file, "is not a valid mesh for Gmsh", current_exception_text());
-  }
-  return assemble(
-      raw, file, [&](std::size_t n) { return file.string() + ": node " + std::to_string(raw.node_numbers[n]); },
-      [&](std::size_t e) { return file.string() + ": tetrahedron " + std::to_string(e + 1); });
 }
 
 }  // namespace scan2fea
