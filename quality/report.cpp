@@ -98,7 +98,9 @@ std::string surface_table(const Json& s) {
   table += row("self-intersections", text(s["self_intersections"]));
   table += row("components, genus", text(s["components"]) + ", " + text(s["genus"]));
   table += row("unused vertices", text(s["unused_vertices"]));
-  table += row("volume, area", text(s["volume"], "%.9g") + ", " + text(s["area"], "%.9g"));
+  const bool inside_out = s["volume"].is_number() && s["volume"].get<double>() < 0;
+  table += row("volume, area", text(s["volume"], "%.9g") + (inside_out ? " (normals point inwards)" : "") + ", " +
+                                   text(s["area"], "%.9g"));
   return table;
 }
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <numeric>
 
 namespace scan2fea {
@@ -16,12 +17,12 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
 using Corners = std::array<Point, 3>;
 
+Point point(const Vec3& p) {
+  return Point(p.x(), p.y(), p.z());
+}
+
 Corners corners_of(const SurfaceMesh& mesh, const Triangle& t) {
-  const auto point = [&](std::uint32_t v) {
-    const Vec3& p = mesh.vertices[v];
-    return Point(p.x(), p.y(), p.z());
-  };
-  return {point(t[0]), point(t[1]), point(t[2])};
+  return {point(mesh.vertices[t[0]]), point(mesh.vertices[t[1]]), point(mesh.vertices[t[2]])};
 }
 
 BoundingBox box_of(const SurfaceMesh& mesh, const Triangle& t) {
@@ -65,6 +66,51 @@ bool is_separated(const std::array<Point, N>& points, const Corners& t) {
   return false;
 }
 
+// What follows settles nearly all pairs of a scan in plain arithmetic. The difference of two doubles is right to 2^-53
+// in each component, so a dot product with one is off by less than 1e-15 of the lengths' product, and one of two cross
+// products of them by less than 1e-14. Ten times that is certain; products that may have underflown are not believed.
+bool is_certain(double squared_value, double squared_magnitude) {
+  return squared_value > 1e-26 * squared_magnitude && squared_magnitude > 1e-250;
+}
+
+// Two faces at the edge from a to b, with apexes c and d: on opposite sides of it, or at least not folded back by more
+// than a right angle.
+bool is_surely_unfolded(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  const Vec3 edge = b - a, ac = c - a, ad = d - a;
+  const double cosine = edge.cross(ac).dot(edge.cross(ad));
+  const double edge2 = edge.squaredNorm();
+  return cosine < 0 && is_certain(cosine * cosine, edge2 * edge2 * ac.squaredNorm() * ad.squaredNorm());
+}
+
+// Two faces with the vertex `at` in common, the others being `p` and `q`: a plane through it lies between them.
+bool is_surely_apart(const Vec3& at, const std::array<Vec3, 2>& p, const std::array<Vec3, 2>& q) {
+  const std::array<Vec3, 2> to_p{p[0] - at, p[1] - at}, to_q{q[0] - at, q[1] - at};
+  const Vec3 normal = to_q[0] + to_q[1] - to_p[0] - to_p[1];
+  const double normal2 = normal.squaredNorm();
+  const auto beyond = [&](const Vec3& x, double side) {
+    const double height = side * normal.dot(x);
+    return height > 0 && is_certain(height * height, normal2 * x.squaredNorm());
+  };
+  return beyond(to_p[0], -1) && beyond(to_p[1], -1) && beyond(to_q[0], 1) && beyond(to_q[1], 1);
+}
+
+// Two faces with nothing in common: a plane across the line of their centres lies between them.
+bool is_surely_apart(const std::array<Vec3, 3>& p, const std::array<Vec3, 3>& q) {
+  const Vec3 normal = q[0] + q[1] + q[2] - p[0] - p[1] - p[2];
+  double below = 0, above = std::numeric_limits<double>::infinity(), reach2 = 0;
+  for (const Vec3& x : {Vec3(p[1] - p[0]), Vec3(p[2] - p[0])}) {
+    below = std::max(below, normal.dot(x));
+    reach2 = std::max(reach2, x.squaredNorm());
+  }
+  for (const Vec3& corner : q) {
+    const Vec3 x = corner - p[0];
+    above = std::min(above, normal.dot(x));
+    reach2 = std::max(reach2, x.squaredNorm());
+  }
+  const double gap = above - below;
+  return gap > 0 && is_certain(gap * gap, normal.squaredNorm() * reach2);
+}
+
 // Corner indices of two faces that name the same vertex.
 struct SharedVertices {
   std::size_t count = 0;
@@ -83,28 +129,47 @@ SharedVertices shared_vertices(const Triangle& s, const Triangle& t) {
   return shared;
 }
 
+bool at_edge_intersect(const SurfaceMesh& mesh, const Triangle& s, const Triangle& t, std::size_t i, std::size_t j) {
+  const auto& v = mesh.vertices;
+  const std::uint32_t from = s[(i + 1) % 3], to = s[(i + 2) % 3];
+  if (is_surely_unfolded(v[from], v[to], v[s[i]], v[t[j]])) return false;
+  const Point a = point(v[from]), b = point(v[to]), c = point(v[s[i]]), d = point(v[t[j]]);
+  return CGAL::orientation(a, b, c, d) == CGAL::COPLANAR && CGAL::coplanar_orientation(a, b, c, d) == CGAL::POSITIVE;
+}
+
+bool at_vertex_intersect(const SurfaceMesh& mesh, const Triangle& s, const Triangle& t, std::size_t i, std::size_t j) {
+  const auto& v = mesh.vertices;
+  const std::array<Vec3, 2> others_s{v[s[(i + 1) % 3]], v[s[(i + 2) % 3]]};
+  const std::array<Vec3, 2> others_t{v[t[(j + 1) % 3]], v[t[(j + 2) % 3]]};
+  if (is_surely_apart(v[s[i]], others_s, others_t)) return false;
+  const auto meets = [](const Corners& face, const std::array<Point, 2>& segment) {
+    return !is_separated(segment, face) &&
+           CGAL::do_intersect(Kernel::Triangle_3(face[0], face[1], face[2]), Kernel::Segment_3(segment[0], segment[1]));
+  };
+  return meets(corners_of(mesh, s), {point(others_t[0]), point(others_t[1])}) ||
+         meets(corners_of(mesh, t), {point(others_s[0]), point(others_s[1])});
+}
+
+bool apart_intersect(const SurfaceMesh& mesh, const Triangle& s, const Triangle& t) {
+  const auto& v = mesh.vertices;
+  if (is_surely_apart({v[s[0]], v[s[1]], v[s[2]]}, {v[t[0]], v[t[1]], v[t[2]]})) return false;
+  const Corners p = corners_of(mesh, s), q = corners_of(mesh, t);
+  return !is_separated(q, p) && !is_separated(p, q) &&
+         CGAL::do_intersect(Kernel::Triangle_3(p[0], p[1], p[2]), Kernel::Triangle_3(q[0], q[1], q[2]));
+}
+
 bool faces_intersect(const SurfaceMesh& mesh, const Triangle& s, const Triangle& t) {
   const SharedVertices shared = shared_vertices(s, t);
-  if (shared.count == 3) return true;
-  const Corners p = corners_of(mesh, s), q = corners_of(mesh, t);
-
-  if (shared.count == 2) {  // folded flat onto one another?
-    const std::size_t i = 3 - shared.of_first, j = 3 - shared.of_second;
-    const Point &from = p[(i + 1) % 3], &to = p[(i + 2) % 3];
-    return CGAL::orientation(from, to, p[i], q[j]) == CGAL::COPLANAR &&
-           CGAL::coplanar_orientation(from, to, p[i], q[j]) == CGAL::POSITIVE;
+  switch (shared.count) {
+    case 0:
+      return apart_intersect(mesh, s, t);
+    case 1:
+      return at_vertex_intersect(mesh, s, t, shared.of_first, shared.of_second);
+    case 2:
+      return at_edge_intersect(mesh, s, t, 3 - shared.of_first, 3 - shared.of_second);
+    default:
+      return true;  // the same face twice
   }
-  const Kernel::Triangle_3 first(p[0], p[1], p[2]), second(q[0], q[1], q[2]);
-  if (shared.count == 1) {
-    const std::size_t i = shared.of_first, j = shared.of_second;
-    const std::array<Point, 2> opposite_p{p[(i + 1) % 3], p[(i + 2) % 3]};
-    const std::array<Point, 2> opposite_q{q[(j + 1) % 3], q[(j + 2) % 3]};
-    return (!is_separated(opposite_q, p) &&
-            CGAL::do_intersect(first, Kernel::Segment_3(opposite_q[0], opposite_q[1]))) ||
-           (!is_separated(opposite_p, q) &&
-            CGAL::do_intersect(second, Kernel::Segment_3(opposite_p[0], opposite_p[1])));
-  }
-  return !is_separated(q, p) && !is_separated(p, q) && CGAL::do_intersect(first, second);
 }
 
 // Pairs of a face of the mesh and one of `faces`. `named` tells of every face whether it is one of these.

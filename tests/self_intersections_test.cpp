@@ -63,6 +63,18 @@ TEST(SelfIntersections, AFoldIsOneOnlyWhenFlat) {
   EXPECT_THAT(find_self_intersections(triangles(shut, {{0, 1, 2}, {1, 0, 3}})), testing::ElementsAre(FacePair{0, 1}));
 }
 
+TEST(SelfIntersections, TheUnitDoesNotMatter) {  // down to where products of coordinates underflow
+  const SurfaceMesh sphere = analytic::sphere(1, 2);
+  const SurfaceMesh crossing = analytic::join(sphere, moved(sphere, {0.4, 0.1, 0.2}));
+  const auto expected = find_self_intersections(crossing);
+  ASSERT_FALSE(expected.empty());
+  for (const double unit : {0x1p-600, 0x1p-300, 0x1p300}) {
+    SurfaceMesh scaled = crossing;
+    for (Vec3& v : scaled.vertices) v *= unit;
+    EXPECT_EQ(find_self_intersections(scaled), expected);
+  }
+}
+
 TEST(SelfIntersections, AFaceTwiceIsOne) {
   const std::vector<Vec3> corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   EXPECT_THAT(find_self_intersections(triangles(corners, {{0, 1, 2}, {0, 2, 1}})),
