@@ -68,14 +68,44 @@ TEST(Tetrahedralize, SeparateBodiesAreAllFilled) {
   expect_valid(two, tetrahedralize(two).mesh);
 }
 
-TEST(Tetrahedralize, MaxVolumeIsKept) {
-  const SurfaceMesh surface = analytic::box({1, 1, 1}, 0.5);
-  const TetMesh coarse = tetrahedralize(surface).mesh;
+TEST(Tetrahedralize, MaxVolumeMakesSmallerElements) {
+  const SurfaceMesh surface = analytic::box({1, 1, 1}, 0.2);
+  for (const InteriorPoints interior : {InteriorPoints::lattice, InteriorPoints::tetgen}) {
+    TetrahedralizeOptions options;
+    options.interior = interior;
+    const TetMesh coarse = tetrahedralize(surface, options).mesh;
+    options.max_volume = 2e-4;
+    const TetMesh fine = tetrahedralize(surface, options).mesh;
+    expect_valid(surface, fine);
+    EXPECT_GT(fine.tetrahedra.size(), 2 * coarse.tetrahedra.size());
+  }
+}
+
+TEST(Tetrahedralize, InteriorSizeMakesFewerElements) {
+  const SurfaceMesh surface = analytic::box({1, 1, 1}, 0.05);
+  std::size_t before = std::numeric_limits<std::size_t>::max();
+  for (const double value : {1.3, 1.6, 3.0}) {
+    TetrahedralizeOptions options;
+    options.interior_size.value = value;
+    const TetMesh mesh = tetrahedralize(surface, options).mesh;
+    expect_valid(surface, mesh);
+    EXPECT_LT(mesh.tetrahedra.size(), before);
+    before = mesh.tetrahedra.size();
+  }
+}
+
+TEST(Tetrahedralize, ThinWallsAreLeftToTetGen) {
+  EXPECT_EQ(tetrahedralize(analytic::box({20, 20, 0.5}, 1)).interior, InteriorPoints::tetgen);
+  EXPECT_EQ(tetrahedralize(analytic::box({3, 3, 3}, 0.5)).interior, InteriorPoints::lattice);
+}
+
+TEST(Tetrahedralize, WithoutTimeToOptimiseTheMeshIsValid) {
+  const SurfaceMesh surface = analytic::sphere(1, 4);
   TetrahedralizeOptions options;
-  options.max_volume = 1e-3;
-  const TetMesh fine = tetrahedralize(surface, options).mesh;
-  expect_valid(surface, fine);
-  EXPECT_GT(fine.tetrahedra.size(), coarse.tetrahedra.size());
+  options.optimise->time_limit = std::chrono::duration<double>(0);
+  const TetrahedralizeResult result = tetrahedralize(surface, options);
+  EXPECT_TRUE(result.optimised.stopped_by_time);
+  expect_valid(surface, result.mesh);
 }
 
 TEST(Tetrahedralize, SplitBoundaryNamesTheTriangleThatItLiesOn) {
@@ -138,39 +168,39 @@ std::filesystem::path script(const std::string& body) {
 
 TEST(TetrahedralizeChild, CrashIsReported) {
   TetrahedralizeOptions options;
-  options.limits.worker = script("kill -SEGV $$");
+  options.tetgen.worker = script("kill -SEGV $$");
   EXPECT_THAT(failure(analytic::sphere(1, 1), options), HasSubstr("signal 11"));
 }
 
 TEST(TetrahedralizeChild, WithoutOutputIsReported) {
   TetrahedralizeOptions options;
-  options.limits.worker = script("exit 0");
+  options.tetgen.worker = script("exit 0");
   EXPECT_THROW(tetrahedralize(analytic::sphere(1, 1), options), Error);
 }
 
 TEST(TetrahedralizeChild, TimeLimitKillsIt) {
   TetrahedralizeOptions options;
-  options.limits.worker = script("exec sleep 60");
-  options.limits.time = std::chrono::milliseconds(100);
+  options.tetgen.worker = script("exec sleep 60");
+  options.tetgen.time = std::chrono::milliseconds(100);
   EXPECT_THAT(failure(analytic::sphere(1, 1), options), HasSubstr("time limit"));
 }
 
 TEST(TetrahedralizeChild, MemoryLimitIsReported) {
   TetrahedralizeOptions options;
   options.max_volume = 1e-5;
-  options.limits.memory_bytes = std::uint64_t{64} << 20;
+  options.tetgen.memory_bytes = std::uint64_t{64} << 20;
   EXPECT_THAT(failure(analytic::sphere(1, 3), options), HasSubstr("memory"));
 }
 
 TEST(TetrahedralizeChild, MissingWorkerIsReported) {
   TetrahedralizeOptions options;
-  options.limits.worker = "/nonexistent/worker";
+  options.tetgen.worker = "/nonexistent/worker";
   EXPECT_THAT(failure(analytic::sphere(1, 1), options), HasSubstr("worker"));
 }
 
 TEST(TetrahedralizeChild, InterruptKillsIt) {
   TetrahedralizeOptions options;
-  options.limits.worker = script("exec sleep 60");
+  options.tetgen.worker = script("exec sleep 60");
   EXPECT_THROW(tetrahedralize(analytic::sphere(1, 1), options, Progress([](auto, double) { return false; })),
                Cancelled);
 }
@@ -189,7 +219,7 @@ TEST(TetrahedralizeChild, LeavesNoTemporaryFolder) {
   setenv("TMPDIR", folder.c_str(), 1);
   tetrahedralize(analytic::sphere(1, 1));
   TetrahedralizeOptions crash;
-  crash.limits.worker = script("kill -SEGV $$");
+  crash.tetgen.worker = script("kill -SEGV $$");
   failure(analytic::sphere(1, 1), crash);
   EXPECT_EQ(count(), 0u);
   before ? setenv("TMPDIR", saved.c_str(), 1) : unsetenv("TMPDIR");

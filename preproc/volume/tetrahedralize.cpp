@@ -3,8 +3,10 @@
 #include "preproc/mesh/error.hpp"
 #include "preproc/volume/fill_regions.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <string>
 
 namespace scan2fea {
@@ -17,14 +19,30 @@ std::string plain_number(double x) {
   return {text.data(), end};
 }
 
-std::string switches(const TetrahedralizeOptions& options) {
-  // p: fill a surface; Q: quiet; J: keep unused nodes, so that numbers stay; Y: do not split the boundary;
-  // q: shape, with a smallest dihedral angle of 10 degrees.
+std::string switches(const TetrahedralizeOptions& options, bool own_points) {
+  // p: fill a surface; Q: quiet; J: keep unused nodes, so that numbers stay; Y: do not split the boundary; q: TetGen's
+  // own points, until the radius-edge ratio holds and the smallest dihedral angle is 10 degrees.
   std::string text = "pQJ";
   if (!options.split_boundary) text += 'Y';
-  text += "q" + plain_number(options.grading) + "/10";
-  if (options.max_volume) text += "a" + plain_number(*options.max_volume);
+  if (own_points) {
+    text += "q" + plain_number(options.grading) + "/10";
+    if (options.max_volume) text += "a" + plain_number(*options.max_volume);
+  }
   return text;
+}
+
+// Above this share of thin walls a lattice makes the mesh worse.
+constexpr double most_thin_walls = 0.3;
+
+// The lattice's edges in elements of a given volume: a cell of volume a^3 holds 12, and near the surface, where the
+// lattice is cut, they may be larger by half.
+InteriorSize limited(InteriorSize size, const std::optional<double>& max_volume, const SurfaceMesh& surface) {
+  if (!max_volume) return size;
+  const double edge = 0.911 * std::cbrt(12 * *max_volume / 1.5);
+  if (size.unit == InteriorSize::Unit::model) return {std::min(size.value, edge), size.unit};
+  const std::vector<double> sizes = surface_sizes(surface);
+  const double largest = *std::max_element(sizes.begin(), sizes.end());
+  return size.value * largest <= edge ? size : InteriorSize{edge, InteriorSize::Unit::model};
 }
 
 // The pieces of a split boundary, turned as the triangles that they lie on.
@@ -51,20 +69,49 @@ SplitBoundary split_boundary(const TetgenOutput& output, const SurfaceMesh& surf
 
 TetrahedralizeResult tetrahedralize(const SurfaceMesh& surface, const TetrahedralizeOptions& options,
                                     const Progress& progress) {
-  TetgenInput input{switches(options), surface.vertices, surface.triangles};
-  TetgenOutput output = run_tetgen(input, options.limits, progress);
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  const auto time_left = [&](std::chrono::duration<double> own) {
+    return options.time_limit ? std::min(own, *options.time_limit - std::chrono::duration<double>(Clock::now() - start))
+                              : own;
+  };
+  if (surface.triangles.empty())
+    throw MeshingFailed({.what = "the surface has no triangles", .where = {}, .value = {}, .limit = {}, .advice = {}});
 
   TetrahedralizeResult result;
+  result.bound = surface_bound(surface);
+  progress("interior points", 0);
+  const InsideTest inside(surface);
+  result.interior = options.interior;
+  if (options.interior == InteriorPoints::automatic)
+    result.interior =
+        thin_wall_share(surface, inside) > most_thin_walls ? InteriorPoints::tetgen : InteriorPoints::lattice;
+  const bool own_points = result.interior == InteriorPoints::tetgen;
+  TetgenInput input{switches(options, own_points), surface.vertices, surface.triangles};
+  if (!own_points) {
+    const std::vector<Vec3> points =
+        lattice_points(surface, inside, limited(options.interior_size, options.max_volume, surface));
+    input.points.insert(input.points.end(), points.begin(), points.end());
+  }
+
+  TetgenLimits limits = options.tetgen;
+  limits.time = time_left(limits.time);
+  TetgenOutput output = run_tetgen(input, limits, progress);
+  std::vector<Triangle> triangles = surface.triangles;
   if (options.split_boundary) {
     SplitBoundary split = split_boundary(output, surface);
-    result.mesh =
-        fill_regions(std::move(output.points), std::move(output.tetrahedra), split.triangles, surface.vertices.size());
+    triangles = std::move(split.triangles);
     result.boundary_parent = std::move(split.parent);
-  } else {
-    result.mesh = fill_regions(std::move(output.points), std::move(output.tetrahedra), surface.triangles,
-                               surface.vertices.size());
   }
+  result.mesh =
+      fill_regions(std::move(output.points), std::move(output.tetrahedra), triangles, surface.vertices.size());
   progress("tetgen", 1);
+
+  if (options.optimise) {
+    OptimiseOptions optimise = *options.optimise;
+    if (options.time_limit) optimise.time_limit = time_left(optimise.time_limit.value_or(*options.time_limit));
+    result.optimised = optimise_tetrahedra(result.mesh, surface.vertices.size(), optimise, progress);
+  }
   return result;
 }
 

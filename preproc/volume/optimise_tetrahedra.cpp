@@ -1,0 +1,206 @@
+#include "preproc/volume/optimise_tetrahedra.hpp"
+
+#include "preproc/volume/edge_removal.hpp"
+#include "preproc/volume/entropy_smoothing.hpp"
+#include "preproc/volume/max_min_relocation.hpp"
+#include "preproc/volume/multi_face_removal.hpp"
+#include "preproc/volume/tet_complex.hpp"
+#include "preproc/volume/vertex_insertion.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <queue>
+
+namespace scan2fea {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double topology_gain = 1.0005;
+constexpr double insertion_gain = 1.02;
+// Stars without an element worse than this are left as the lattice made them.
+constexpr double smoothing_threshold = 2;
+constexpr int relocation_steps = 8;
+
+// What was tried on an element without success since it or a neighbour last changed.
+constexpr std::uint32_t tried_topology = 1, tried_insertion = 2, tried_relocation = 4;
+
+class Optimisation {
+ public:
+  Optimisation(const TetMesh& mesh, const OptimiseOptions& options, const Progress& progress)
+      : complex_(mesh), options_(options), progress_(progress), start_(Clock::now()) {}
+
+  OptimiseResult run() {
+    result_.worst_before = worst();
+    for (int round = 0; round < 3; ++round) {
+      topology(false);
+      smoothing();
+      report(0.1 * (round + 1));
+    }
+    relocation();
+    for (int round = 0; round < options_.insertion_rounds; ++round) {
+      topology(true);
+      relocation();
+      report(0.4 + 0.6 * (round + 1) / options_.insertion_rounds);
+    }
+    result_.worst_after = worst();
+    return result_;
+  }
+
+  const TetComplex& complex() const { return complex_; }
+
+ private:
+  struct Candidate {
+    double quality;
+    std::uint32_t element, version;
+    bool operator<(const Candidate& other) const {  // the worst comes first out of a heap
+      return quality != other.quality ? quality > other.quality : element > other.element;
+    }
+  };
+
+  double worst() const {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::uint32_t t = 0; t < complex_.slot_count(); ++t)
+      if (complex_.alive(t)) least = std::min(least, complex_.quality(t));
+    return least;
+  }
+
+  void report(double fraction) const { progress_("optimise", std::min(fraction, 1.0)); }
+
+  // Looks at the clock and for an interrupt now and then only.
+  bool time_is_up() {
+    if (result_.stopped_by_time) return true;
+    if (++moves_ % 512 != 0) return false;
+    if (options_.time_limit && Clock::now() - start_ > *options_.time_limit) result_.stopped_by_time = true;
+    return result_.stopped_by_time;
+  }
+
+  std::vector<Candidate> bad_elements(std::uint32_t tried) const {
+    std::vector<Candidate> bad;
+    for (std::uint32_t t = 0; t < complex_.slot_count(); ++t) {
+      const TetComplex::Element& element = complex_.element(t);
+      if (complex_.alive(t) && element.quality < options_.threshold && !(element.tried & tried))
+        bad.push_back({element.quality, t, element.version});
+    }
+    return bad;
+  }
+
+  // Worst first, until every bad element has been tried in its present surroundings.
+  void topology(bool with_insertion) {
+    const std::uint32_t bit = with_insertion ? tried_insertion : tried_topology;
+    std::priority_queue<Candidate> queue({}, bad_elements(bit));
+    const auto push = [&](std::uint32_t t) {
+      const TetComplex::Element& element = complex_.element(t);
+      if (element.quality < options_.threshold && !(element.tried & bit))
+        queue.push({element.quality, t, element.version});
+    };
+    while (!queue.empty() && !time_is_up()) {
+      const Candidate candidate = queue.top();
+      queue.pop();
+      const TetComplex::Element& element = complex_.element(candidate.element);
+      if (element.version != candidate.version || (element.tried & bit)) continue;
+      if (!mend_by_topology(candidate.element) && !(with_insertion && mend_by_insertion(candidate.element))) {
+        complex_.mark_tried(candidate.element, bit);
+        continue;
+      }
+      for (const std::uint32_t t : complex_.fresh_slots()) {
+        push(t);
+        for (const std::uint32_t n : complex_.element(t).link)
+          if (!(n & TetComplex::boundary_bit)) push(n);
+      }
+    }
+  }
+
+  bool mend_by_topology(std::uint32_t t) {
+    if (complex_.element(t).tried & tried_topology) return false;
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t j = i + 1; j < 4; ++j)
+        if (remove_edge(complex_, t, i, j, topology_gain)) {
+          ++result_.edge_removals;
+          return true;
+        }
+    for (std::size_t k = 0; k < 4; ++k)
+      if (remove_faces(complex_, t, k, topology_gain)) {
+        ++result_.face_removals;
+        return true;
+      }
+    complex_.mark_tried(t, tried_topology);
+    return false;
+  }
+
+  bool mend_by_insertion(std::uint32_t t) {
+    if (!insertion_.mend(complex_, t, insertion_gain)) return false;
+    ++result_.insertions;
+    return true;
+  }
+
+  // The star as seen from its vertex; returns its least quality.
+  double look_from(std::uint32_t v) {
+    complex_.star(v, around_);
+    faces_.clear();
+    double least = std::numeric_limits<double>::infinity();
+    for (const std::uint32_t t : around_) {
+      const TetComplex::Element& element = complex_.element(t);
+      const Triangle f = face_opposite(element.corners, corner_of(element.corners, v));
+      faces_.push_back({complex_.node(f[0]), complex_.node(f[2]), complex_.node(f[1])});
+      least = std::min(least, element.quality);
+    }
+    return least;
+  }
+
+  void smoothing() {
+    for (std::uint32_t v = 0; v < complex_.node_count() && !time_is_up(); ++v) {
+      if (complex_.fixed(v) || !complex_.used(v)) continue;
+      double quality = look_from(v);
+      if (quality > smoothing_threshold) continue;
+      Vec3 place = complex_.node(v);
+      if (smooth_by_entropy(faces_, place, quality)) complex_.move_node(v, place, around_);
+    }
+  }
+
+  void relocation() {
+    std::vector<Candidate> bad = bad_elements(tried_relocation);
+    std::sort(bad.begin(), bad.end(), [](const Candidate& a, const Candidate& b) { return b < a; });
+    for (const Candidate& candidate : bad) {
+      if (time_is_up()) return;
+      const TetComplex::Element& element = complex_.element(candidate.element);
+      if (!complex_.alive(candidate.element) || element.quality >= options_.threshold) continue;
+      const Tetrahedron corners = element.corners;
+      bool moved = false;
+      for (const std::uint32_t v : corners) {
+        if (complex_.fixed(v)) continue;
+        double quality = look_from(v);
+        Vec3 place = complex_.node(v);
+        if (!relocate_max_min(faces_, place, quality, relocation_steps)) continue;
+        complex_.move_node(v, place, around_);
+        moved = true;
+      }
+      if (moved)
+        ++result_.relocations;
+      else
+        complex_.mark_tried(candidate.element, tried_relocation);
+    }
+  }
+
+  TetComplex complex_;
+  const OptimiseOptions& options_;
+  const Progress& progress_;
+  Clock::time_point start_;
+  OptimiseResult result_;
+  VertexInsertion insertion_;
+  std::vector<std::uint32_t> around_;
+  StarFaces faces_;
+  std::size_t moves_ = 0;
+};
+
+}  // namespace
+
+OptimiseResult optimise_tetrahedra(TetMesh& mesh, std::size_t kept, const OptimiseOptions& options,
+                                   const Progress& progress) {
+  Optimisation optimisation(mesh, options, progress);
+  const OptimiseResult result = optimisation.run();
+  mesh = optimisation.complex().to_mesh(kept);
+  return result;
+}
+
+}  // namespace scan2fea

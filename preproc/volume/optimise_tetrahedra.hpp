@@ -1,0 +1,37 @@
+// Local optimisation of a tetrahedral mesh whose boundary stays as it is.
+#pragma once
+
+#include "preproc/mesh/progress.hpp"
+#include "preproc/mesh/tet_mesh.hpp"
+
+#include <chrono>
+#include <optional>
+
+namespace scan2fea {
+
+struct OptimiseOptions {
+  // Elements below this goal_quality are worked on, 0.5 to 2. 1.5 asks for dihedral angles of 34 to 128 degrees and a
+  // scaled Jacobian of 0.42: what the surface then allows is reached; 1.3 saves a tenth of the time.
+  double threshold = 1.5;
+  // Rounds of topology with insertion and max-min relocation, 0 to 4. The third adds half a degree.
+  int insertion_rounds = 2;
+  // Wall time after which the mesh is given as it then stands, valid and better than it was. None: until done.
+  std::optional<std::chrono::duration<double>> time_limit;
+};
+
+struct OptimiseResult {
+  double worst_before = 0, worst_after = 0;  // goal_quality
+  std::size_t edge_removals = 0, face_removals = 0, insertions = 0, relocations = 0;
+  bool stopped_by_time = false;
+};
+
+// Passes: topology, smoothing, topology, smoothing, topology, smoothing, max-min relocation; then, for each round,
+// topology with insertion and max-min relocation. Every move lifts the least quality of what it touches, so the
+// mesh's least quality never falls.
+// The mesh is of first order with positive tetrahedra; `boundary` and its nodes stay, in their order; nodes
+// from `kept` on that lose all their elements vanish. Deterministic, unless the time limit strikes. Throws Cancelled.
+// Some 3 us per element on one thread.
+OptimiseResult optimise_tetrahedra(TetMesh& mesh, std::size_t kept, const OptimiseOptions& options = {},
+                                   const Progress& progress = {});
+
+}  // namespace scan2fea

@@ -1,0 +1,24 @@
+// How good a tetrahedron is, as the optimisation sees it.
+#pragma once
+
+#include "preproc/mesh/surface_mesh.hpp"
+
+namespace scan2fea {
+
+// One number for three goals: the least of
+//   sin(smallest dihedral angle) / sin 22 deg,
+//   (1 + cos(largest dihedral angle)) / (1 + cos 138 deg),
+//   scaled Jacobian (6V sqrt 2 over the largest product of three edges at a corner) / 0.28,
+// so that 1 is good enough for a solver in all three and 2.3 is the body-centred cubic lattice's tetrahedron. Scale
+// invariant; not positive where (b - a) x (c - a) . (d - a) is not. Some 40 ns.
+double goal_quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+
+// What a solver's user reads: the three ingredients.
+struct TetMeasures {
+  double min_dihedral_deg;
+  double max_dihedral_deg;
+  double scaled_jacobian;
+};
+TetMeasures tet_measures(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+
+}  // namespace scan2fea
