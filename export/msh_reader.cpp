@@ -111,6 +111,8 @@ class Reader {
         version_4_ ? read_nodes_4() : read_nodes_2();
       else if (section == "Elements")
         version_4_ ? read_elements_4() : read_elements_2();
+      else if (section == "ParametricNodes")
+        in_.fail("nodes with parametric coordinates are not read", {}, {}, "Gmsh's Mesh.SaveParametric = 0");
       in_.close_section(section);
     }
     const std::string name = file_.path().string();
