@@ -52,6 +52,15 @@ TEST(ReadScans, BunnyIsOpen) {
   EXPECT_GT(border_edges(mesh), 0u);
 }
 
+TEST(ReadScans, BracketOfTheExamplesIsAClosedPartWithThreeHoles) {
+  const std::filesystem::path file = SCAN2FEA_EXAMPLES "/bracket.ply";
+  const SurfaceMesh mesh = read_surface(file);
+  EXPECT_EQ(border_edges(mesh), 0u);
+  EXPECT_EQ(2 * mesh.vertices.size() + 8, mesh.triangles.size());  // Euler's formula for genus 3
+  EXPECT_GT(enclosed_volume(mesh), 0);
+  EXPECT_LT(std::filesystem::file_size(file), 1'000'000u);
+}
+
 TEST(ReadScans, HorseStaysClosedThroughStl) {
   READ_OR_SKIP(horse, "horse.ply");
   const TemporaryFolder folder;
