@@ -1,0 +1,49 @@
+// What a repair changed: counts, and a list of places for the report.
+#pragma once
+
+#include "preproc/mesh/surface_mesh.hpp"
+
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+namespace scan2fea {
+
+enum class RepairKind {
+  WeldedVertex,      // joined to a vertex at the very same place, which closed a border; size 0
+  UnusedVertex,      // no face used it; size 0
+  DegenerateFace,    // of no area: removed, collapsed or flipped away; size: its longest edge
+  DuplicateFace,     // the same three vertices as another face; size: its area
+  InnerWall,         // a sheet that met the rest only in non-manifold edges; size: its area
+  SplitVertex,       // parted into one vertex per fan of faces; size 0
+  NonManifoldFaces,  // faces about an edge that no splitting could mend, cut out and filled; size: their area
+  TurnedFaces,       // orientation reversed to agree with its neighbours or to point outwards; size: area turned
+  DroppedSpeck,      // a component too small to matter (RepairOptions::speck_of_diagonal); size: its area
+  DroppedFragment,   // an open or flat component that holds no volume (RepairOptions::fragment_of_area); size: its area
+  DroppedInside,     // a piece that lay inside the solid after crossing parts were cut; size: its area
+  ClosedHole,        // size: the diagonal of its border's bounding box
+  PartedTouch,       // a vertex moved off one that it touched; size: the distance moved
+  SmoothedFold,      // a vertex smoothed because its faces crossed others; size: the distance moved
+  Intersection,      // a group of faces that crossed others, cut out and filled; size: the area cut out
+};
+
+std::string_view name(RepairKind kind);
+
+struct RepairChange {
+  RepairKind kind;
+  Vec3 place;   // a point of what was changed, or its centre
+  double size;  // model units; what it measures is said beside each kind
+};
+
+struct RepairResult {
+  std::vector<RepairChange> changes;   // in the order in which they were made
+  std::size_t intersecting_pairs = 0;  // pairs of faces that crossed before any were removed
+  std::size_t faces_removed = 0;       // of the input's faces
+  std::size_t faces_added = 0;
+
+  bool unchanged() const { return changes.empty(); }
+  std::size_t count(RepairKind kind) const;
+  double total_size(RepairKind kind) const;  // the sum of the sizes: area for the kinds that measure an area
+};
+
+}  // namespace scan2fea
