@@ -114,25 +114,27 @@ std::string nearest_names(std::string_view name, std::vector<std::string> names)
   return names[0] + ", " + names[1] + " or " + names[2];
 }
 
+WrongUsage wrong_name(std::string what, std::string_view name, std::string advice) {
+  return WrongUsage({.what = std::move(what),
+                     .where = "--require",
+                     .value = std::string(name),
+                     .limit = {},
+                     .advice = std::move(advice)});
+}
+
 std::string full_name(std::string_view name) {
   const std::vector<std::string> names = all_names();
   std::vector<std::string> matches;
+  bool is_group = false;  // edge_ratio is a figure of the volume mesh, but of the surface it is five
   for (const std::string& candidate : names) {
     if (candidate == name) return candidate;
     if (without_section(candidate) == name) matches.push_back(candidate);
+    is_group = is_group || without_section(candidate).starts_with(std::string(name) + ".");
   }
-  if (matches.size() == 1) return matches[0];
-  if (matches.empty())
-    throw WrongUsage({.what = "no figure has this name",
-                      .where = "--require",
-                      .value = std::string(name),
-                      .limit = {},
-                      .advice = nearest_names(name, names)});
-  throw WrongUsage({.what = "several figures have this name",
-                    .where = "--require",
-                    .value = std::string(name),
-                    .limit = {},
-                    .advice = matches[0] + " or " + matches[1]});
+  if (matches.empty()) throw wrong_name("no figure has this name", name, nearest_names(name, names));
+  if (is_group) throw wrong_name("several figures have this name", name, nearest_names(name, names));
+  if (matches.size() > 1) throw wrong_name("several figures have this name", name, matches[0] + " or " + matches[1]);
+  return matches[0];
 }
 
 // Null where the report has no figure of this name.
@@ -152,14 +154,16 @@ double value_of(const Gate& gate, const Json& report) {
   const Json figure = figure_of(gate, report);
   if (figure.is_boolean()) return figure.get<bool>() ? 1 : 0;
   if (figure.is_number() && std::isfinite(figure.get<double>())) return figure.get<double>();
-  const bool of_deviation = gate.name.starts_with("deviation.");
+  const std::string section = gate.name.substr(0, gate.name.find('.'));
+  std::string advice = "another figure: this one has no meaning for this input";
+  if (!report.contains(section))
+    advice = section == "deviation" ? "--reference, since a deviation is one from a reference"
+                                    : "a figure that this input has: it has none of " + section;
   throw WrongUsage({.what = "the report has no value for a required figure",
                     .where = "--require",
                     .value = gate.name,
                     .limit = {},
-                    .advice = of_deviation && !report.contains("deviation")
-                                  ? "--reference, since a deviation is one from a reference"
-                                  : "another figure: this one has no meaning for this input"});
+                    .advice = advice});
 }
 
 }  // namespace

@@ -81,6 +81,16 @@ TEST(Gates, AnAmbiguousNameIsRefused) {
   }
 }
 
+TEST(Gates, ANameThatIsAGroupElsewhereIsAmbiguous) {
+  EXPECT_EQ(parse_gate("volume_mesh.edge_ratio<=3").name, "volume_mesh.edge_ratio");
+  try {
+    parse_gate("edge_ratio<=1.2");
+    FAIL();
+  } catch (const WrongUsage& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("surface.edge_ratio.mean"));
+  }
+}
+
 TEST(Gates, WhatIsNoGateIsRefused) {
   for (const char* text : {"", "edge_ratio.mean", "edge_ratio.mean<=", "<=1", "edge_ratio.mean<=1.2x",
                            "edge_ratio.mean=1", "edge_ratio.mean<=nan", "edge_ratio.mean<=inf",
