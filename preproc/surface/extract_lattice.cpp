@@ -1,5 +1,7 @@
 #include "preproc/surface/extract_lattice.hpp"
 
+#include "preproc/surface/components.hpp"
+#include "preproc/surface/halfedge_mesh.hpp"
 #include "preproc/surface/parallel_blocks.hpp"
 #include "preproc/surface/union_find.hpp"
 
@@ -15,7 +17,7 @@ constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 constexpr double farthest_join = 0.6;              // edge lengths between lattice points that may become one
 constexpr double smallest_cluster = 0.3;           // cells
 constexpr double cell_area = 0.86602540378443865;  // of a lattice of edge length 1, sqrt(3)/2
-constexpr int rounds_of_mending = 30;
+constexpr int rounds_of_mending = 10;
 
 struct Join {
   std::uint32_t a, b;
@@ -25,7 +27,7 @@ struct Join {
 class Clusters {
  public:
   Clusters(const GraphLevel& graph, const std::vector<Complex>& directions, const PositionField& position)
-      : graph_(graph),
+      : graph_(&graph),
         sets_(graph.size()),
         next_(graph.size()),
         points_(graph.size()),
@@ -88,8 +90,8 @@ class Clusters {
   void for_each_neighbour_set(std::uint32_t root, const Visit& visit) {
     std::uint32_t i = root;
     do {
-      for (std::uint32_t e = graph_.first[i]; e < graph_.first[i + 1]; ++e) {
-        const std::uint32_t other = find(graph_.neighbours[e]);
+      for (std::uint32_t e = graph_->first[i]; e < graph_->first[i + 1]; ++e) {
+        const std::uint32_t other = find(graph_->neighbours[e]);
         if (other != root) visit(other);
       }
       i = next_[i];
@@ -105,7 +107,7 @@ class Clusters {
     return root;
   }
 
-  const GraphLevel& graph_;
+  const GraphLevel* graph_;
   UnionFind sets_;
   std::vector<std::uint32_t> next_;  // the members of a set, in a ring
   std::vector<Vec3> points_;         // per root, sum of lattice points
@@ -223,29 +225,32 @@ std::vector<std::uint32_t> offenders(const std::vector<Triangle>& faces, Cluster
   return found;
 }
 
-}  // namespace
+// Whether the result is closed and manifold is known by then: then these numbers say the rest.
+bool has_topology_of(const SurfaceMesh& scan, const ExtractedLattice& result) {
+  const Components before = find_components(scan), after = find_components(result.mesh);
+  if (after.count != before.count) return false;
+  const std::vector<long> euler_before = euler_characteristics(scan, before);
+  const std::vector<long> euler_after = euler_characteristics(result.mesh, after);
+  for (std::size_t i = 0; i < scan.vertices.size(); ++i)
+    if (euler_before[before.of_vertex[i]] != euler_after[after.of_vertex[result.vertex_of_node[i]]]) return false;
+  return true;
+}
 
-ExtractedLattice extract_lattice(const RefinedScan& scan, const GraphLevel& graph, const OrientationField& orientation,
-                                 const PositionField& position) {
-  const std::vector<Complex>& directions = orientation.directions.front();
-  Clusters clusters(graph, directions, position);
-  for (const Join& join : joins_by_residual(graph, directions, position)) clusters.join_if_near(join);
-  dissolve_small(clusters, graph.size());
-
-  ExtractedLattice result;
-  std::vector<Triangle> faces = faces_between(scan.mesh, clusters);
-  for (int round = 0; round < rounds_of_mending; ++round) {
-    const std::vector<std::uint32_t> bad = offenders(faces, clusters, graph.size());
-    result.manifold = bad.empty();
-    if (bad.empty()) break;
+// Dissolves what offends until nothing does; false where that does not end.
+bool merge_into_manifold(const SurfaceMesh& scan, Clusters& clusters, ExtractedLattice& result) {
+  std::vector<Triangle> faces;
+  bool manifold = false;
+  for (int round = 0; round < rounds_of_mending && !manifold; ++round) {
+    faces = faces_between(scan, clusters);
+    const std::vector<std::uint32_t> bad = offenders(faces, clusters, scan.vertices.size());
     for (const std::uint32_t root : bad)
       if (clusters.find(root) == root) clusters.dissolve(root);
-    faces = faces_between(scan.mesh, clusters);
+    manifold = bad.empty();
   }
-
-  result.vertex_of_node.resize(graph.size());
-  std::vector<std::uint32_t> number(graph.size(), none);
-  for (std::uint32_t i = 0; i < graph.size(); ++i) {
+  if (!manifold) return false;
+  result.vertex_of_node.resize(scan.vertices.size());
+  std::vector<std::uint32_t> number(scan.vertices.size(), none);
+  for (std::uint32_t i = 0; i < number.size(); ++i) {
     const std::uint32_t root = clusters.find(i);
     if (number[root] == none) {
       number[root] = static_cast<std::uint32_t>(result.mesh.vertices.size());
@@ -255,7 +260,70 @@ ExtractedLattice extract_lattice(const RefinedScan& scan, const GraphLevel& grap
   }
   for (Triangle& f : faces) f = {number[f[0]], number[f[1]], number[f[2]]};
   result.mesh.triangles = std::move(faces);
+  return has_topology_of(scan, result);
+}
+
+// Contracts edges inside the clusters while there are any that may be.
+ExtractedLattice contract(const SurfaceMesh& scan, Clusters& clusters) {
+  HalfedgeMesh mesh(scan);
+  std::vector<std::uint32_t> into(scan.vertices.size());
+  for (std::uint32_t i = 0; i < into.size(); ++i) into[i] = i;
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (HalfedgeMesh::Index h = 0; h < 3 * mesh.face_slots(); ++h) {
+      if (!mesh.is_face_alive(HalfedgeMesh::face(h))) continue;
+      const std::uint32_t kept = mesh.origin(h), removed = mesh.target(h);
+      if (clusters.find(kept) != clusters.find(removed) || !mesh.can_collapse(h)) continue;
+      mesh.collapse(h);
+      into[removed] = kept;
+      changed = true;
+    }
+  }
+  // A cluster that became one vertex lies at its lattice point, parts of others where their nodes were.
+  std::vector<std::uint32_t> parts(scan.vertices.size(), 0);
+  std::vector<Vec3> sums(scan.vertices.size(), Vec3::Zero());
+  std::vector<double> counts(scan.vertices.size(), 0);
+  for (std::uint32_t i = 0; i < into.size(); ++i) {
+    std::uint32_t end = i;
+    while (into[end] != end) end = into[end];
+    into[i] = end;
+    sums[end] += scan.vertices[i];
+    ++counts[end];
+    if (end == i) ++parts[clusters.find(i)];
+  }
+  std::vector<std::uint32_t> number(scan.vertices.size(), none);
+  std::uint32_t alive = 0;
+  for (std::uint32_t i = 0; i < into.size(); ++i) {
+    if (!mesh.is_alive(i)) continue;
+    const std::uint32_t root = clusters.find(i);
+    mesh.points[i] = parts[root] == 1 ? clusters.point(root) : Vec3(sums[i] / counts[i]);
+    number[i] = alive++;
+  }
+  ExtractedLattice result;
+  result.contracted = true;
+  result.mesh = mesh.to_surface();
+  result.vertex_of_node.resize(into.size());
+  for (std::size_t i = 0; i < into.size(); ++i) result.vertex_of_node[i] = number[into[i]];
   return result;
+}
+
+Clusters clusters_of(const GraphLevel& graph, const std::vector<Complex>& directions, const PositionField& position) {
+  Clusters clusters(graph, directions, position);
+  for (const Join& join : joins_by_residual(graph, directions, position)) clusters.join_if_near(join);
+  dissolve_small(clusters, graph.size());
+  return clusters;
+}
+
+}  // namespace
+
+ExtractedLattice extract_lattice(const RefinedScan& scan, const GraphLevel& graph, const OrientationField& orientation,
+                                 const PositionField& position) {
+  const std::vector<Complex>& directions = orientation.directions.front();
+  ExtractedLattice result;
+  Clusters clusters = clusters_of(graph, directions, position);
+  if (merge_into_manifold(scan.mesh, clusters, result)) return result;
+  clusters = clusters_of(graph, directions, position);  // without what the attempt has dissolved
+  return contract(scan.mesh, clusters);
 }
 
 }  // namespace scan2fea

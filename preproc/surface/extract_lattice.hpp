@@ -13,15 +13,17 @@ namespace scan2fea {
 struct ExtractedLattice {
   SurfaceMesh mesh;
   std::vector<std::uint32_t> vertex_of_node;  // per vertex of the refined scan, the vertex of `mesh` that it belongs to
-  bool manifold = false;                      // closed and manifold; where false, `mesh` is what there is
+  bool contracted = false;                    // see below
 };
 
-// Nodes that share a lattice point become one vertex, at the mean of their lattice points; each triangle of the scan
-// with corners in three of them a face. Joins are made in the order of how well positions agree; those of lattice
-// points more than 0.6 edge lengths apart are refused, and parts of less than 0.3 of a cell go to their nearest
-// neighbour. Where faces do not meet as on a surface, the smallest part there goes the same way, and so on. Not
-// guaranteed: genus and components (a limb thinner than an edge length is cut); the caller compares them. Precondition:
-// graph.levels[0] is the refined scan's. Nearly linear; deterministic.
+// Nodes that share a lattice point become one vertex, at the mean of their lattice points. Joins are made in the order
+// of how well positions agree; those of lattice points more than 0.6 edge lengths apart are refused, and parts of less
+// than 0.3 of a cell go to their nearest neighbour. Each triangle of the scan with corners in three parts is a face.
+// Where faces do not meet as on a surface, the smallest part there goes to its neighbour as well, and so on. Where that
+// does not end in a closed manifold whose components have the genera of the scan's (a limb or a handle is thinner than
+// an edge length), the parts are contracted edge by edge instead, as far as the link condition allows. That always
+// keeps the topology, at the price of a few vertices more than the lattice has there. Precondition: the scan is a
+// closed manifold, graph is the finest level of its graph. Nearly linear; deterministic.
 ExtractedLattice extract_lattice(const RefinedScan& scan, const GraphLevel& graph, const OrientationField& orientation,
                                  const PositionField& position);
 

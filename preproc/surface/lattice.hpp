@@ -32,21 +32,23 @@ struct LatticeOptions {
 };
 
 struct LatticeResult {
-  // Why there is no mesh: "" where there is one. Then the caller takes another way.
-  std::string failure;
+  std::string failure;  // why `mesh` is not what was asked for; empty where it is. Then the caller takes another way
   SurfaceMesh mesh;
   std::vector<double> edge_length;                   // wanted, per vertex of `mesh`
   std::vector<std::uint32_t> vertex_of_scan_vertex;  // the vertex of `mesh` near each vertex of the scan
   double regular_share = 0;                          // of the vertices, those of valence 6
+  // Parts of the scan are thinner than the triangles, so that the lattice could not be read off as it is; expect
+  // slivers and crossing triangles there.
+  bool contracted = false;
 };
 
 // Precondition: closed, manifold, oriented, free of self-intersections (see repair); any number of components, any
-// genus. `mesh` is closed and manifold, each component has the genus of the scan's, the number of triangles is the
-// wanted one within 0.5 % (unless components are so small that they need more); all of this is verified, and reported
-// as `failure` where it cannot be had. Not guaranteed: freedom from self-intersections where the lattice is coarser
-// than the shape. Throws WrongUsage for options out of range, InvalidInput for a scan without area, Cancelled. Linear
-// but for sorts; at most 250 bytes per triangle of the scan, where few edges need splitting. Deterministic for any
-// number of threads.
+// genus. `mesh` is closed and manifold and has the scan's components and genera, always. The number of triangles is the
+// wanted one within 0.5 %, unless small components need more; where thin parts keep it from that, `failure` says so.
+// Not guaranteed: freedom from self-intersections where the lattice is coarser than the shape. Throws WrongUsage for
+// options out of range, InvalidInput for a scan without area, NotMeshable for one that is not closed or not manifold,
+// Cancelled. Linear but for sorts; at most 250 bytes per triangle of the scan, where few edges need splitting.
+// Deterministic for any number of threads.
 LatticeResult remesh_by_lattice(const SurfaceMesh& scan, const LatticeOptions& options, const Progress& progress = {});
 
 }  // namespace scan2fea
