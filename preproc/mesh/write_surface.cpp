@@ -114,20 +114,27 @@ void write_off(const SurfaceMesh& mesh, Buffer& out) {
 
 using Writer = void (*)(const SurfaceMesh&, Buffer&);
 
+// Null where the extension names no surface format.
 Writer writer_for(const std::filesystem::path& file) {
   const std::string extension = lower_case_extension(file);
   if (extension == ".stl") return write_stl;
   if (extension == ".obj") return write_obj;
   if (extension == ".ply") return write_ply;
   if (extension == ".off") return write_off;
-  throw WrongUsage({"the extension of the output names no surface format", file.string(), extension,
-                    ".stl, .obj, .ply or .off", "one of these"});
+  return nullptr;
 }
 
 }  // namespace
 
+bool is_surface_file(const std::filesystem::path& file) { return writer_for(file) != nullptr; }
+
+std::string_view known_surface_formats() { return ".stl, .obj, .ply or .off"; }
+
 void write_surface(const SurfaceMesh& mesh, const std::filesystem::path& file) {
   const Writer write = writer_for(file);
+  if (write == nullptr)
+    throw WrongUsage({"the extension of the output names no surface format", file.string(),
+                      lower_case_extension(file), std::string(known_surface_formats()), "one of these"});
   OutputFile output(file);
   Buffer buffer(output.stream());
   write(mesh, buffer);

@@ -2,10 +2,17 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 
 #include "preproc/mesh/surface_mesh.hpp"
 
 namespace scan2fea {
+
+// Whether the extension, upper or lower case, is one of these formats.
+bool is_surface_file(const std::filesystem::path& file);
+
+// For messages.
+std::string_view known_surface_formats();
 
 // The format is told by the extension (WrongUsage where it is unknown). Numbers round-trip, but for STL, whose format
 // holds 32-bit floats. Throws IoError; a file that stood there before is then untouched (see OutputFile).

@@ -1,0 +1,97 @@
+#include "preproc/command/figures.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+#include <iostream>
+
+#include "preproc/command/output_files.hpp"
+
+namespace scan2fea::command {
+namespace {
+
+Json to_json(const std::vector<StageRecord>& stages) {
+  Json list = Json::array();
+  for (const StageRecord& stage : stages) {
+    Json entry{{"name", stage.name}, {"seconds", stage.seconds}, {"peak_bytes", stage.peak_bytes}};
+    for (const auto& [name, value] : stage.changes) entry[name] = value;
+    if (!stage.remarks.empty()) entry["remarks"] = stage.remarks;
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
+Json measure(const Subject& subject, const CommonFlags& flags) {
+  Report report;
+  report.input = flags.input.string();
+  if (subject.surface != nullptr) report.surface = measure_surface(*subject.surface);
+  if (subject.surface != nullptr && subject.reference != nullptr)
+    report.deviation = measure_deviation(*subject.surface, *subject.reference, {.seed = flags.seed});
+  if (subject.volume_mesh != nullptr) report.volume_mesh = measure_tetrahedra(*subject.volume_mesh);
+  Json json = scan2fea::to_json(report);
+  if (flags.unit) json["unit"] = *flags.unit;
+  if (subject.stages != nullptr) json["stages"] = to_json(*subject.stages);
+  return json;
+}
+
+std::string describe(const GateResult& result) {
+  char text[160];
+  std::snprintf(text, sizeof text, "gate failed: %s is %.6g (limit: %.6g)", result.gate.name.c_str(), result.value,
+                result.gate.limit);
+  return text;
+}
+
+}  // namespace
+
+std::vector<Gate> parse_gates(const CommonFlags& flags) {
+  std::vector<Gate> gates;
+  for (const std::string& text : flags.require) gates.push_back(parse_gate(text));
+  return gates;
+}
+
+bool report_figures(const Subject& subject, const CommonFlags& flags, const std::vector<Gate>& gates,
+                    ProgressDisplay& display) {
+  Json report = measure(subject, flags);
+  const std::vector<GateResult> results = evaluate_gates(gates, report);
+  report["gates"] = scan2fea::to_json(results);
+  if (flags.json) write_json(report, *flags.json);
+  if (flags.report) write_report(report, to_table(report), *flags.report);
+  // With the JSON on stdout the table goes where messages go.
+  if (!flags.quiet) {
+    if (flags.json == "-")
+      display.line(to_table(report));
+    else
+      std::cout << to_table(report) << std::flush;
+  }
+  for (const GateResult& result : results)
+    if (!result.pass) std::fprintf(stderr, "scan2fea: %s: %s\n", flags.input.c_str(), describe(result).c_str());
+  return all_pass(results);
+}
+
+std::string describe_input(const SurfaceMesh& mesh, const CommonFlags& flags) {
+  const BoundingBox box = bounding_box(mesh.vertices);
+  const Vec3 size = box.high - box.low;
+  char text[160];
+  std::snprintf(text, sizeof text, ": %zu vertices, %zu triangles, %.6g x %.6g x %.6g ", mesh.vertices.size(),
+                mesh.triangles.size(), size.x(), size.y(), size.z());
+  return flags.input.string() + text + flags.unit.value_or("(no --unit given)");
+}
+
+std::string describe_stage(const StageRecord& stage) {
+  constexpr std::size_t most_remarks = 8;  // the report holds them all
+  std::string text = stage.name + ":";
+  for (const auto& [name, value] : stage.changes) {
+    char change[96];
+    std::snprintf(change, sizeof change, " %s %.6g,", name.c_str(), value);
+    text += change;
+  }
+  char seconds[32];
+  std::snprintf(seconds, sizeof seconds, " %.2f s", stage.seconds);
+  text += seconds;
+  for (std::size_t i = 0; i < std::min(stage.remarks.size(), most_remarks); ++i) text += "\n  " + stage.remarks[i];
+  if (stage.remarks.size() > most_remarks)
+    text += "\n  ... and " + std::to_string(stage.remarks.size() - most_remarks) + " more, in --json and --report";
+  return text;
+}
+
+}  // namespace scan2fea::command

@@ -1,0 +1,32 @@
+// Measures what a sub-command made or read, evaluates the gates, and writes the reports that were asked for.
+#pragma once
+
+#include "preproc/command/flags.hpp"
+#include "preproc/command/progress_display.hpp"
+#include "quality/gates.hpp"
+#include "quality/report.hpp"
+
+namespace scan2fea::command {
+
+// Parses the gates, before any work is done (WrongUsage).
+std::vector<Gate> parse_gates(const CommonFlags& flags);
+
+// What is measured; a reference is what the surface is compared with.
+struct Subject {
+  const SurfaceMesh* surface = nullptr;
+  const SurfaceMesh* reference = nullptr;
+  const TetMesh* volume_mesh = nullptr;
+  const std::vector<StageRecord>* stages = nullptr;
+};
+
+// Returns whether all gates pass. Writes --json and --report; says which gates failed.
+bool report_figures(const Subject& subject, const CommonFlags& flags, const std::vector<Gate>& gates,
+                    ProgressDisplay& display);
+
+// "scan.ply: 48485 vertices, 96966 triangles, 12.3 x 4.5 x 6.7 mm": a wrong unit is the commonest mistake.
+std::string describe_input(const SurfaceMesh& mesh, const CommonFlags& flags);
+
+// "simplify: faces_before 96966, faces_after 12604 (0.41 s)", and its first remarks below.
+std::string describe_stage(const StageRecord& stage);
+
+}  // namespace scan2fea::command

@@ -1,0 +1,173 @@
+#include "preproc/command/flags.hpp"
+
+#include <CLI/Validators.hpp>
+
+#include <cmath>
+#include <map>
+
+namespace scan2fea::command {
+namespace {
+
+// CLI11's own positive-number check lets inf and nan pass.
+const CLI::Validator positive(
+    [](std::string& text) {
+      char* end = nullptr;
+      const double value = std::strtod(text.c_str(), &end);
+      const bool number = end != text.c_str() && *end == '\0' && std::isfinite(value);
+      return number && value > 0 ? std::string() : "must be a number above 0, is '" + text + "'";
+    },
+    "NUMBER > 0");
+
+template <class Enum>
+CLI::Option* add_choice(CLI::App& command, const std::string& flag, Enum& value,
+                        const std::map<std::string, Enum>& choices, const std::string& text) {
+  std::string list;
+  for (const auto& choice : choices) list += (list.empty() ? "" : ", ") + choice.first;
+  return command
+      .add_option_function<std::string>(
+          flag,
+          [&value, choices, list, flag](const std::string& name) {
+            const auto found = choices.find(name);
+            if (found == choices.end()) throw CLI::ValidationError(flag, "'" + name + "' is none of " + list);
+            value = found->second;
+          },
+          text + " (" + list + ")")
+      ->type_name("NAME");
+}
+
+}  // namespace
+
+RelativeLength parse_length(const std::string& text, char suffix) {
+  RelativeLength length;
+  length.relative = !text.empty() && text.back() == suffix;
+  const std::string number = length.relative ? text.substr(0, text.size() - 1) : text;
+  char* end = nullptr;
+  length.value = std::strtod(number.c_str(), &end);
+  if (number.empty() || *end != '\0' || !std::isfinite(length.value) || length.value <= 0)
+    throw CLI::ValidationError("'" + text + "' is no length above 0; try 0.5 or 0.5" + std::string(1, suffix));
+  if (suffix == '%' && length.relative) length.value /= 100;
+  return length;
+}
+
+TargetSize SizeFlags::resolve(const BoundingBox& scan) const {
+  if (faces) return FaceCount{*faces};
+  if (ratio) return FaceRatio{*ratio};
+  if (edge_length) return MeanEdgeLength{*edge_length};
+  const RelativeLength bound = deviation.value_or(RelativeLength{.value = 0.002, .relative = true});
+  return LargestDeviation{bound.relative ? bound.value * scan.diagonal() : bound.value};
+}
+
+void add_common_flags(CLI::App& command, CommonFlags& flags) {
+  command.add_option("input", flags.input, "What to read")->required()->type_name("FILE");
+  command.add_option("--unit", flags.unit, "Length unit of the input, recorded in what is written")
+      ->check(CLI::IsMember({"um", "mm", "cm", "m", "in", "ft"}))
+      ->type_name("UNIT");
+  command.add_option("--json", flags.json, "Write all figures as JSON (- for stdout)")->type_name("FILE");
+  command.add_option("--report", flags.report, "Write the quality report into this folder")->type_name("DIR");
+  command.add_option("--require", flags.require, "Gate, e.g. \"edge_ratio.mean<=1.2\"; exit 1 where it fails (repeatable)")
+      ->type_name("GATE")
+      ->allow_extra_args(false);
+  command.add_option("--threads", flags.threads, "Number of threads; 0 for all. The result does not depend on it")
+      ->check(CLI::Range(0, 1024))
+      ->type_name("N");
+  command.add_option("--seed", flags.seed, "Of the random points by which distances are measured")
+      ->capture_default_str()
+      ->type_name("N");
+  command.add_option("--config", flags.config, "Options from a TOML file, under the flags' names")->type_name("FILE");
+  command.add_flag("--quiet", flags.quiet, "No messages but errors");
+}
+
+void add_output_flag(CLI::App& command, OutputFlag& flag) {
+  command.add_option("-o,--output", flag.output, "What to write; its extension tells the format")
+      ->required()
+      ->type_name("FILE");
+  command.add_flag("--force", flag.force, "Overwrite an existing output");
+}
+
+void add_size_flags(CLI::App& command, SizeFlags& flags) {
+  CLI::Option* faces = command.add_option("--faces", flags.faces, "Wanted number of surface triangles")
+                           ->check(CLI::Range(std::size_t{4}, std::size_t{1} << 31))
+                           ->type_name("N");
+  CLI::Option* ratio = command.add_option("--ratio", flags.ratio, "Wanted triangles over those of the input")
+                           ->check(positive)
+                           ->type_name("R");
+  CLI::Option* edge_length = command.add_option("--edge-length", flags.edge_length, "Wanted mean edge, model units")
+                                 ->check(positive)
+                                 ->type_name("L");
+  CLI::Option* deviation =
+      command
+          .add_option_function<std::string>(
+              "--deviation", [&flags](const std::string& text) { flags.deviation = parse_length(text, '%'); },
+              "Largest distance to the scan, model units or % of the bounding box's diagonal; the default is 0.2%")
+          ->type_name("D");
+  const std::vector<CLI::Option*> sizes{faces, ratio, edge_length, deviation};
+  for (CLI::Option* one : sizes)
+    for (CLI::Option* other : sizes)
+      if (one != other) one->excludes(other);
+}
+
+void add_repair_flags(CLI::App& command, RepairOptions& options) {
+  command
+      .add_option_function<std::string>(
+          "--largest-hole",
+          [&options](const std::string& text) {
+            if (text == "all") {
+              options.largest_hole_of_diagonal.reset();
+              return;
+            }
+            const RelativeLength length = parse_length(text, '%');
+            if (!length.relative) throw CLI::ValidationError("--largest-hole", "takes a percentage or 'all'");
+            options.largest_hole_of_diagonal = length.value;
+          },
+          "Close holes up to this size, % of their component's diagonal, or 'all'; the default is 35%")
+      ->type_name("P%");
+}
+
+void add_simplify_flags(CLI::App& command, SimplifyOptions& options) {
+  add_choice<SimplifyMethod>(command, "--method", options.method,
+                             {{"collapse", SimplifyMethod::collapse}, {"lattice", SimplifyMethod::lattice}},
+                             "How to simplify; lattice is the default");
+  add_choice<Sizing>(command, "--sizing", options.sizing,
+                     {{"uniform", Sizing::uniform}, {"curvature", Sizing::curvature}, {"error", Sizing::error}},
+                     "Where triangles are small; curvature is the default");
+  command.add_option("--gradation", options.gradation, "How fast edge lengths may change, 0.02 to 1")
+      ->capture_default_str()
+      ->check(CLI::Range(0.02, 1.0))
+      ->type_name("G");
+  add_choice<Effort>(command, "--effort", options.effort,
+                     {{"low", Effort::low}, {"normal", Effort::normal}, {"high", Effort::high}},
+                     "Time spent on shape and fidelity; normal is the default");
+}
+
+void add_tetrahedralize_flags(CLI::App& command, TetrahedralizeOptions& options, int& order) {
+  command.add_option("--order", order, "1: 4-node tetrahedra, 2: 10-node")
+      ->capture_default_str()
+      ->check(CLI::IsMember({1, 2}))
+      ->type_name("1|2");
+  command
+      .add_option_function<std::string>(
+          "--interior-size",
+          [&options](const std::string& text) {
+            const RelativeLength length = parse_length(text, 'x');
+            options.interior_size = {.value = length.value, .unit = length.relative ? InteriorSize::Unit::of_surface
+                                                                                    : InteriorSize::Unit::model};
+          },
+          "Edge length inside, model units or times the surface's (1.6x, the default)")
+      ->type_name("L");
+  command
+      .add_option_function<double>(
+          "--time-limit",
+          [&options](double seconds) { options.time_limit = std::chrono::duration<double>(seconds); },
+          "Of the volume stage, seconds; what is left after TetGen is spent on better tetrahedra")
+      ->check(positive)
+      ->type_name("S");
+  command.add_option("--max-volume", options.max_volume, "Largest tetrahedron, model units cubed")
+      ->check(positive)
+      ->type_name("V");
+  command.add_option("--grading", options.grading, "TetGen's radius-edge bound, 1.1 to 2")
+      ->capture_default_str()
+      ->check(CLI::Range(1.1, 2.0))
+      ->type_name("Q");
+}
+
+}  // namespace scan2fea::command

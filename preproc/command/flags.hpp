@@ -1,0 +1,61 @@
+// The flags that sub-commands share. Each `add_...` declares one group of them on a sub-command and binds it to a field.
+#pragma once
+
+#include <CLI/App.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "preproc/pipeline.hpp"
+
+namespace scan2fea::command {
+
+// What every sub-command that makes or measures a mesh knows.
+struct CommonFlags {
+  std::filesystem::path input;
+  std::optional<std::filesystem::path> json;    // "-" is stdout
+  std::optional<std::filesystem::path> report;  // a folder
+  std::optional<std::filesystem::path> config;
+  std::vector<std::string> require;
+  std::optional<std::string> unit;
+  std::uint64_t seed = 1;  // of the random points by which distances are measured
+  int threads = 0;         // 0: all
+  bool quiet = false;
+};
+
+// A length in model units, or as a share of something the input tells.
+struct RelativeLength {
+  double value = 0;
+  bool relative = false;
+};
+
+// "0.5" or, with the suffix, "0.1%" (returned as 0.001) or "1.6x". Throws CLI::ValidationError.
+RelativeLength parse_length(const std::string& text, char suffix);
+
+// The size flags, before the scan is known.
+struct SizeFlags {
+  std::optional<std::size_t> faces;
+  std::optional<double> ratio;
+  std::optional<double> edge_length;
+  std::optional<RelativeLength> deviation;
+
+  // Model units need the scan's bounding box. With no flag: a deviation of 0.2 % of its diagonal.
+  TargetSize resolve(const BoundingBox& scan) const;
+};
+
+struct OutputFlag {
+  std::filesystem::path output;
+  bool force = false;
+};
+
+void add_common_flags(CLI::App& command, CommonFlags& flags);
+void add_output_flag(CLI::App& command, OutputFlag& flag);
+void add_size_flags(CLI::App& command, SizeFlags& flags);
+void add_repair_flags(CLI::App& command, RepairOptions& options);
+void add_simplify_flags(CLI::App& command, SimplifyOptions& options);
+void add_tetrahedralize_flags(CLI::App& command, TetrahedralizeOptions& options, int& order);
+
+}  // namespace scan2fea::command

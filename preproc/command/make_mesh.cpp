@@ -1,0 +1,77 @@
+#include "preproc/command/make_mesh.hpp"
+
+#include "export/formats.hpp"
+#include "preproc/command/figures.hpp"
+#include "preproc/command/output_files.hpp"
+#include "preproc/mesh/error.hpp"
+#include "preproc/mesh/read_surface.hpp"
+#include "preproc/mesh/write_surface.hpp"
+
+namespace scan2fea::command {
+namespace {
+
+template <class AnyError>
+[[noreturn]] void rethrow_naming(const AnyError& error, const std::string& input) {
+  ErrorParts parts = error.parts();
+  parts.where = parts.where.empty() ? input : input + ": " + parts.where;
+  throw AnyError(std::move(parts));
+}
+
+// The stages know meshes and no files; a person wants to be told which of many files failed.
+PipelineResult run_naming_input(SurfaceMesh scan, const MakeMeshJob& job, ProgressDisplay& display) {
+  const std::string input = job.common.input.string();
+  const auto tell = [&](const StageRecord& stage) { display.line(describe_stage(stage)); };
+  try {
+    return run_pipeline(std::move(scan), job.pipeline, display.progress(), tell);
+  } catch (const InvalidInput& e) {
+    rethrow_naming(e, input);
+  } catch (const NotMeshable& e) {
+    rethrow_naming(e, input);
+  } catch (const MeshingFailed& e) {
+    rethrow_naming(e, input);
+  }
+}
+
+void require_known_format(const MakeMeshJob& job) {
+  const std::filesystem::path& output = job.output.output;
+  const bool known = job.pipeline.tetrahedralize ? volume_format(output).has_value() : is_surface_file(output);
+  if (!known)
+    throw WrongUsage({.what = "unknown format of the output", .where = output.string(),
+                      .value = output.extension().string(), .limit = {},
+                      .advice = std::string(job.pipeline.tetrahedralize ? known_volume_formats()
+                                                                        : known_surface_formats())});
+}
+
+}  // namespace
+
+int make_mesh(MakeMeshJob job) {
+  require_known_format(job);
+  require_writable(job.output.output, job.output.force);
+  const std::vector<Gate> gates = parse_gates(job.common);
+
+  ProgressDisplay display(job.common.quiet);
+  SurfaceMesh scan = read_surface(job.common.input);
+  display.line(describe_input(scan, job.common));
+  if (job.pipeline.simplify) job.pipeline.simplify->size = job.size.resolve(bounding_box(scan.vertices));
+  const PipelineResult result = run_naming_input(std::move(scan), job, display);
+
+  const bool figures_wanted = !job.common.quiet || job.common.json || job.common.report || !gates.empty();
+  if (figures_wanted) {
+    const Subject subject{.surface = &result.surface,
+                          .reference = &result.scan,
+                          .volume_mesh = result.volume_mesh ? &*result.volume_mesh : nullptr,
+                          .stages = &result.stages};
+    if (!report_figures(subject, job.common, gates, display)) return 1;
+  }
+  if (result.volume_mesh) {
+    const VolumeFileOptions options{.unit = job.common.unit.value_or(""),
+                                    .provenance = job.common.input.filename().string()};
+    for (const std::string& warning : write_volume(*result.volume_mesh, job.output.output, options).warnings)
+      display.line("warning: " + warning);
+  } else {
+    write_surface(result.surface, job.output.output);
+  }
+  return 0;
+}
+
+}  // namespace scan2fea::command

@@ -1,0 +1,38 @@
+// What a person sees while the command works: a bar on a terminal, plain lines elsewhere, nothing when quiet.
+#pragma once
+
+#include <chrono>
+#include <string>
+
+#include "preproc/mesh/progress.hpp"
+
+namespace scan2fea::command {
+
+// Draws on stderr. Also the place where an interrupt (Ctrl-C) reaches the algorithms: `callback` returns false once one
+// has arrived, which makes them throw Cancelled and unwind, so that temporary files and child processes go too.
+class ProgressDisplay {
+ public:
+  explicit ProgressDisplay(bool quiet);
+  ~ProgressDisplay();
+  ProgressDisplay(const ProgressDisplay&) = delete;
+  ProgressDisplay& operator=(const ProgressDisplay&) = delete;
+
+  Progress progress();
+
+  // One finished line, above the bar where there is one.
+  void line(const std::string& text);
+
+ private:
+  bool update(std::string_view stage, double fraction);
+  void clear();
+
+  bool quiet_;
+  bool terminal_;
+  bool bar_shown_ = false;
+  std::chrono::steady_clock::time_point last_drawn_;
+};
+
+// From here on the first interrupt asks to stop; a second one kills the process as usual.
+void catch_interrupts();
+
+}  // namespace scan2fea::command

@@ -1,0 +1,17 @@
+#include "preproc/command/make_mesh.hpp"
+#include "preproc/command/sub_commands.hpp"
+
+namespace scan2fea::command {
+
+SubCommand add_repair(CLI::App& root) {
+  const auto job = std::make_shared<MakeMeshJob>();
+  job->pipeline = {.repair = {}, .simplify = {}, .tetrahedralize = {}, .order = 1};
+  job->pipeline.repair.emplace();
+  CLI::App* app = root.add_subcommand("repair", "One stage: close, orient and clean a scanned surface");
+  add_common_flags(*app, job->common);
+  add_output_flag(*app, job->output);
+  add_repair_flags(*app, *job->pipeline.repair);
+  return {app, [job] { return make_mesh(*job); }};
+}
+
+}  // namespace scan2fea::command

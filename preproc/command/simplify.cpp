@@ -1,0 +1,18 @@
+#include "preproc/command/make_mesh.hpp"
+#include "preproc/command/sub_commands.hpp"
+
+namespace scan2fea::command {
+
+SubCommand add_simplify(CLI::App& root) {
+  const auto job = std::make_shared<MakeMeshJob>();
+  job->pipeline = {.repair = {}, .simplify = {}, .tetrahedralize = {}, .order = 1};
+  job->pipeline.simplify.emplace();
+  CLI::App* app = root.add_subcommand("simplify", "One stage: fewer and better triangles on a repaired surface");
+  add_common_flags(*app, job->common);
+  add_output_flag(*app, job->output);
+  add_size_flags(*app, job->size);
+  add_simplify_flags(*app, *job->pipeline.simplify);
+  return {app, [job] { return make_mesh(*job); }};
+}
+
+}  // namespace scan2fea::command

@@ -1,0 +1,23 @@
+// The sub-commands, one file each. Every `add_...` declares one on the root and says how to execute it.
+#pragma once
+
+#include <CLI/App.hpp>
+
+#include <functional>
+
+namespace scan2fea::command {
+
+struct SubCommand {
+  CLI::App* app;
+  std::function<int()> execute;  // called after all flags and the configuration are in; returns the exit status
+};
+
+SubCommand add_run(CLI::App& root);
+SubCommand add_surface(CLI::App& root);
+SubCommand add_repair(CLI::App& root);
+SubCommand add_simplify(CLI::App& root);
+SubCommand add_tetrahedralize(CLI::App& root);
+SubCommand add_check(CLI::App& root);
+SubCommand add_convert(CLI::App& root);
+
+}  // namespace scan2fea::command

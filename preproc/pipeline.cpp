@@ -1,0 +1,125 @@
+#include "preproc/pipeline.hpp"
+
+#include <sys/resource.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <map>
+
+#include "preproc/mesh/error.hpp"
+#include "preproc/volume/mid_edge_nodes.hpp"
+
+namespace scan2fea {
+namespace {
+
+// Linux keeps a high-water mark of resident memory that can be set back, which gives each stage its own peak.
+void restart_peak_memory() { std::ofstream("/proc/self/clear_refs") << 5; }
+
+std::uint64_t peak_memory_bytes() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);) {
+    unsigned long long kilobytes = 0;
+    if (std::sscanf(line.c_str(), "VmHWM: %llu kB", &kilobytes) == 1) return kilobytes * 1024;
+  }
+  return 0;
+}
+
+// Times stages and hands their records on.
+class StageLog {
+ public:
+  StageLog(std::vector<StageRecord>& records, const StageListener& listener) : records_(records), listener_(listener) {}
+
+  template <class Work>
+  void run(const std::string& name, Work work) {
+    restart_peak_memory();
+    const auto start = std::chrono::steady_clock::now();
+    StageRecord record;
+    record.name = name;
+    work(record);
+    record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    record.peak_bytes = peak_memory_bytes();
+    records_.push_back(record);
+    if (listener_) listener_(records_.back());
+  }
+
+ private:
+  std::vector<StageRecord>& records_;
+  const StageListener& listener_;
+};
+
+std::string coordinates(const Vec3& p) {
+  char text[96];
+  std::snprintf(text, sizeof text, "(%.6g, %.6g, %.6g)", p.x(), p.y(), p.z());
+  return text;
+}
+
+void describe(const RepairResult& result, StageRecord& record) {
+  std::map<RepairKind, std::size_t> counts;
+  for (const RepairChange& change : result.changes) ++counts[change.kind];
+  for (const auto& [kind, count] : counts)
+    record.changes.emplace_back(std::string(scan2fea::name(kind)), static_cast<double>(count));
+  if (result.intersecting_pairs > 0)
+    record.changes.emplace_back("intersecting_pairs_before", static_cast<double>(result.intersecting_pairs));
+  record.changes.emplace_back("faces_removed", static_cast<double>(result.faces_removed));
+  record.changes.emplace_back("faces_added", static_cast<double>(result.faces_added));
+  for (const RepairChange& change : result.changes) {
+    char size[32];
+    std::snprintf(size, sizeof size, "%.4g", change.size);
+    record.remarks.push_back(std::string(name(change.kind)) + " at " + coordinates(change.place) +
+                             (change.size > 0 ? ", size " + std::string(size) : ""));
+  }
+}
+
+void describe(const SimplifyResult& result, StageRecord& record) {
+  record.changes = {{"faces_before", static_cast<double>(result.faces_before)},
+                    {"faces_after", static_cast<double>(result.faces_after)},
+                    {"crossings_mended", static_cast<double>(result.crossings_mended)}};
+  if (result.largest_deviation > 0) record.changes.emplace_back("largest_deviation", result.largest_deviation);
+  if (!result.fallback_reason.empty())
+    record.remarks.push_back("the lattice gave way to collapse: " + result.fallback_reason);
+}
+
+// Beside what came out, the best that the surface allows, and where it is set.
+void describe(const TetrahedralizeResult& result, StageRecord& record) {
+  record.changes = {{"tetrahedra", static_cast<double>(result.mesh.tetrahedra.size())},
+                    {"nodes", static_cast<double>(result.mesh.nodes.size())},
+                    {"surface_allows_min_dihedral_deg", result.bound.min_dihedral_deg},
+                    {"surface_allows_scaled_jacobian", result.bound.scaled_jacobian}};
+  record.remarks = {"the surface's sharpest edge is at " + coordinates(result.bound.sharpest_edge),
+                    "its worst triangle is at " + coordinates(result.bound.worst_triangle_centre)};
+  if (result.optimised.stopped_by_time) record.remarks.push_back("the time limit ended the optimisation early");
+}
+
+}  // namespace
+
+PipelineResult run_pipeline(SurfaceMesh scan, const PipelineOptions& options, const Progress& progress,
+                            const StageListener& listener) {
+  PipelineResult result;
+  StageLog log(result.stages, listener);
+  if (options.repair)
+    log.run("repair", [&](StageRecord& record) { describe(repair(scan, *options.repair, progress), record); });
+  result.scan = scan;
+  result.surface = std::move(scan);
+  if (options.simplify)
+    log.run("simplify", [&](StageRecord& record) {
+      describe(simplify(result.surface, *options.simplify, progress), record);
+    });
+  if (options.tetrahedralize) {
+    log.run("tetrahedralize", [&](StageRecord& record) {
+      TetrahedralizeResult filled = tetrahedralize(result.surface, *options.tetrahedralize, progress);
+      describe(filled, record);
+      result.volume_mesh = std::move(filled.mesh);
+    });
+    if (options.order == 2)
+      log.run("second order", [&](StageRecord& record) {
+        const std::size_t corners = result.volume_mesh->nodes.size();
+        add_mid_edge_nodes(*result.volume_mesh);
+        record.changes = {{"nodes_added", static_cast<double>(result.volume_mesh->nodes.size() - corners)}};
+      });
+  }
+  return result;
+}
+
+}  // namespace scan2fea

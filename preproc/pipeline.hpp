@@ -1,0 +1,51 @@
+// The whole chain from a scan to a mesh: repair, simplify, tetrahedralize, second order.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "preproc/mesh/progress.hpp"
+#include "preproc/mesh/surface_mesh.hpp"
+#include "preproc/mesh/tet_mesh.hpp"
+#include "preproc/surface/repair.hpp"
+#include "preproc/surface/simplify.hpp"
+#include "preproc/volume/tetrahedralize.hpp"
+
+namespace scan2fea {
+
+// A stage that is not asked for is left out; its input then goes on as it is.
+struct PipelineOptions {
+  std::optional<RepairOptions> repair = RepairOptions{};
+  std::optional<SimplifyOptions> simplify = SimplifyOptions{};
+  std::optional<TetrahedralizeOptions> tetrahedralize = TetrahedralizeOptions{};
+  int order = 1;  // 1: 4-node tetrahedra, 2: 10-node tetrahedra
+};
+
+// What one stage cost and did.
+struct StageRecord {
+  std::string name;
+  double seconds = 0;
+  std::uint64_t peak_bytes = 0;      // of the process while the stage ran; 0 where the system does not tell
+  std::vector<std::pair<std::string, double>> changes;  // "holes_closed" -> 5, in the order they are shown
+  std::vector<std::string> remarks;  // what a person should know: places of changes, a method that gave way
+};
+
+struct PipelineResult {
+  SurfaceMesh scan;     // after repair: what the result is compared with
+  SurfaceMesh surface;  // the last surface of the chain
+  std::optional<TetMesh> volume_mesh;
+  std::vector<StageRecord> stages;
+};
+
+// Called after each stage.
+using StageListener = std::function<void(const StageRecord&)>;
+
+// Throws what the stages throw: NotMeshable, MeshingFailed, WrongUsage, Cancelled.
+PipelineResult run_pipeline(SurfaceMesh scan, const PipelineOptions& options = {}, const Progress& progress = {},
+                            const StageListener& listener = {});
+
+}  // namespace scan2fea

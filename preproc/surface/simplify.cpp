@@ -1,0 +1,218 @@
+#include "preproc/surface/simplify.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "preproc/mesh/error.hpp"
+#include "preproc/surface/guard.hpp"
+#include "preproc/surface/lattice.hpp"
+#include "preproc/surface/preserve_volume.hpp"
+#include "preproc/surface/reference_surface.hpp"
+#include "preproc/surface/shape_fit.hpp"
+#include "quality/deviation.hpp"
+#include "quality/validity.hpp"
+
+namespace scan2fea {
+namespace {
+
+constexpr double equilateral_area = 0.43301270189221932;  // of a triangle with edges of length 1
+// A closed surface needs four faces; fewer than this and no shape is left of anything.
+constexpr double fewest_faces = 4;
+
+// What an effort buys.
+struct FitPlan {
+  int first_rounds;  // with a loose fit, while the connectivity still changes
+  int rounds;
+  bool both_sides;  // samples of the result too
+  std::optional<double> lift_tail_of_diagonal;
+};
+
+FitPlan plan_of(Effort effort) {
+  switch (effort) {
+    case Effort::low: return {.first_rounds = 2, .rounds = 4, .both_sides = false, .lift_tail_of_diagonal = {}};
+    case Effort::normal: return {.first_rounds = 2, .rounds = 8, .both_sides = false, .lift_tail_of_diagonal = {}};
+    case Effort::high: return {.first_rounds = 2, .rounds = 12, .both_sides = true, .lift_tail_of_diagonal = 0.001};
+  }
+  return {};
+}
+
+struct Candidate {
+  SurfaceMesh mesh;
+  std::size_t crossings_mended = 0;
+  std::string failure;  // empty where `mesh` is valid
+};
+
+std::string describe(const SurfaceDefects& defects) {
+  return std::to_string(defects.crossings.size()) + " crossing pairs of faces and " +
+         std::to_string(defects.inverted.size()) + " inverted faces remained";
+}
+
+// Exact volume, then the guard.
+void finish(Candidate& candidate, const ReferenceSurface& scan, const Progress& progress) {
+  preserve_volume(candidate.mesh, scan.mesh);
+  const GuardResult guarded = guard_surface(candidate.mesh, scan, {}, progress);
+  candidate.crossings_mended = guarded.before.crossings.size();
+  if (!guarded.clean()) candidate.failure = describe(guarded.after);
+}
+
+Candidate by_lattice(const ReferenceSurface& scan, double faces, const SimplifyOptions& options,
+                     const Progress& progress) {
+  LatticeOptions lattice_options;
+  lattice_options.sizing.triangles = faces;
+  lattice_options.sizing.sizing = options.sizing;
+  lattice_options.sizing.gradation = options.gradation;
+  LatticeResult lattice = remesh_by_lattice(scan.mesh, lattice_options, progress);
+  if (!lattice.failure.empty()) return {.mesh = {}, .crossings_mended = 0, .failure = lattice.failure};
+
+  Candidate candidate{.mesh = std::move(lattice.mesh), .crossings_mended = 0, .failure = {}};
+  const FitPlan plan = plan_of(options.effort);
+  ShapeFitOptions loose;
+  loose.fidelity_of_diagonal = 0.003;
+  loose.rounds = plan.first_rounds;
+  loose.nearest_vertex_of_scan_vertex = std::move(lattice.vertex_of_scan_vertex);
+  optimise_shape_and_fit(candidate.mesh, scan, loose, progress);
+  ConnectivityOptions connectivity;
+  connectivity.rounds = 1;
+  connectivity.triangles = static_cast<std::size_t>(std::lround(faces));
+  improve_connectivity(candidate.mesh, lattice.edge_length, connectivity);
+  ShapeFitOptions fit;
+  fit.rounds = plan.rounds;
+  fit.both_sides = plan.both_sides;
+  fit.lift_tail_of_diagonal = plan.lift_tail_of_diagonal;
+  optimise_shape_and_fit(candidate.mesh, scan, fit, progress);
+  finish(candidate, scan, progress);
+  return candidate;
+}
+
+// Where the lattice gives way: contractions towards the same sizing, then the same fit.
+Candidate by_relaxation(const ReferenceSurface& scan, double faces, const SimplifyOptions& options,
+                        const Progress& progress) {
+  SizingOptions sizing;
+  sizing.triangles = faces;
+  sizing.sizing = options.sizing;
+  sizing.gradation = options.gradation;
+  CollapseOptions collapse_options;
+  collapse_options.target_faces = static_cast<std::size_t>(std::lround(faces));
+  collapse_options.cost = CollapseCost::sized_length;
+  collapse_options.sizing = compute_sizing_field(scan.mesh, sizing).edge_length;
+  Candidate candidate{.mesh = scan.mesh, .crossings_mended = 0, .failure = {}};
+  collapse(candidate.mesh, collapse_options, progress);
+  ShapeFitOptions fit;
+  fit.rounds = 12;
+  optimise_shape_and_fit(candidate.mesh, scan, fit, progress);
+  finish(candidate, scan, progress);
+  return candidate;
+}
+
+// The paper's method as it is; only what passes through itself is mended.
+Candidate by_collapse(const ReferenceSurface& scan, double faces, const SimplifyOptions& options,
+                      const Progress& progress) {
+  CollapseOptions collapse_options = options.collapse;
+  collapse_options.target_faces = static_cast<std::size_t>(std::lround(faces));
+  Candidate candidate{.mesh = scan.mesh, .crossings_mended = 0, .failure = {}};
+  collapse(candidate.mesh, collapse_options, progress);
+  GuardOptions guard;
+  guard.least_angle_deg = 0;
+  guard.keep_volume = false;
+  const GuardResult guarded = guard_surface(candidate.mesh, scan, guard, progress);
+  candidate.crossings_mended = guarded.before.crossings.size();
+  if (!guarded.clean()) candidate.failure = describe(guarded.after);
+  return candidate;
+}
+
+// One surface of about `faces` triangles, by the method asked for or, where that fails, the other.
+SurfaceMesh make_surface(const ReferenceSurface& scan, double faces, const SimplifyOptions& options,
+                         SimplifyResult& result, const Progress& progress) {
+  result.method = options.method;
+  result.fallback_reason.clear();
+  Candidate candidate = options.method == SimplifyMethod::lattice ? by_lattice(scan, faces, options, progress)
+                                                                  : by_collapse(scan, faces, options, progress);
+  if (!candidate.failure.empty() && options.method == SimplifyMethod::lattice) {
+    result.method = SimplifyMethod::collapse;
+    result.fallback_reason = candidate.failure;
+    candidate = by_relaxation(scan, faces, options, progress);
+  }
+  if (!candidate.failure.empty())
+    throw NotMeshable({.what = "no valid surface of this size: " + candidate.failure, .where = {},
+                       .value = std::to_string(std::lround(faces)) + " triangles", .limit = {},
+                       .advice = "more triangles (--faces, or a smaller --edge-length or --deviation)"});
+  result.crossings_mended = candidate.crossings_mended;
+  result.faces_after = candidate.mesh.triangles.size();
+  return std::move(candidate.mesh);
+}
+
+// The deviation of linear triangles falls as the edge length squared, so as one over their number; a few steps of that
+// law, with a margin for where it does not hold, find the number that keeps the bound with few triangles to spare.
+SurfaceMesh make_surface_within(const ReferenceSurface& scan, double distance, const SimplifyOptions& options,
+                                SimplifyResult& result, const Progress& progress) {
+  constexpr int most_trials = 8;
+  constexpr double margin = 0.9;        // of the bound, aimed at
+  constexpr double good_enough = 0.75;  // of the bound, reached: fewer triangles are not looked for
+  const double relative = distance / scan.diagonal;
+  double faces = std::clamp(12.0 / relative, 500.0, static_cast<double>(scan.mesh.triangles.size()));
+  double too_few = 0;
+  std::optional<SurfaceMesh> best;
+  SimplifyResult best_result;
+  for (int trial = 0; trial < most_trials; ++trial) {
+    SurfaceMesh surface = make_surface(scan, faces, options, result, progress);
+    result.largest_deviation = measure_deviation(surface, scan.mesh).hausdorff;
+    const bool within = result.largest_deviation <= distance;
+    if (within && (!best || surface.triangles.size() < best->triangles.size())) {
+      best = std::move(surface);
+      best_result = result;
+    }
+    if (!within) too_few = std::max(too_few, faces);
+    if (within && result.largest_deviation >= good_enough * distance) break;
+    double next = faces * std::clamp(result.largest_deviation / (margin * distance), 0.3, 3.0);
+    // A count that failed bounds the search from below, one that passed from above: between them, the middle.
+    if (best) {
+      const double upper = static_cast<double>(best->triangles.size());
+      if (next >= upper || next <= too_few) next = std::sqrt(std::max(too_few, upper / 8) * upper);
+      if (next > 0.95 * upper) break;
+    }
+    faces = std::max(next, 100.0);
+  }
+  if (!best)
+    throw NotMeshable({.what = "the deviation was not reached", .where = {},
+                       .value = std::to_string(result.largest_deviation) + " with " +
+                                std::to_string(result.faces_after) + " triangles",
+                       .limit = std::to_string(distance), .advice = "a larger --deviation"});
+  result = best_result;
+  return std::move(*best);
+}
+
+double wanted_faces(const TargetSize& size, const ReferenceSurface& scan) {
+  if (const auto* count = std::get_if<FaceCount>(&size)) return static_cast<double>(count->faces);
+  if (const auto* ratio = std::get_if<FaceRatio>(&size))
+    return ratio->of_input * static_cast<double>(scan.mesh.triangles.size());
+  const double length = std::get<MeanEdgeLength>(size).length;
+  return scan.area / (equilateral_area * length * length);
+}
+
+void require_positive(double value, const char* what) {
+  if (!(value > 0) || !std::isfinite(value))
+    throw WrongUsage({.what = std::string(what) + " must be above 0", .where = {}, .value = std::to_string(value),
+                      .limit = {}, .advice = {}});
+}
+
+}  // namespace
+
+SimplifyResult simplify(SurfaceMesh& mesh, const SimplifyOptions& options, const Progress& progress) {
+  const ReferenceSurface scan(mesh);
+  SimplifyResult result;
+  result.faces_before = mesh.triangles.size();
+  SurfaceMesh surface;
+  if (const auto* bound = std::get_if<LargestDeviation>(&options.size)) {
+    require_positive(bound->distance, "the deviation");
+    surface = make_surface_within(scan, bound->distance, options, result, progress);
+  } else {
+    const double faces = wanted_faces(options.size, scan);
+    require_positive(faces, "the number of triangles");
+    surface = make_surface(scan, std::max(faces, fewest_faces), options, result, progress);
+  }
+  mesh = std::move(surface);
+  return result;
+}
+
+}  // namespace scan2fea

@@ -1,0 +1,68 @@
+// Simplification: fewer, nearly equilateral triangles that stay on the scan and enclose its volume.
+// Source: the paper, section 3 (collapse); the lattice chain joins orientation and position fields with an optimisation
+// of entropy and fit.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <variant>
+
+#include "preproc/mesh/progress.hpp"
+#include "preproc/mesh/surface_mesh.hpp"
+#include "preproc/surface/collapse.hpp"
+#include "preproc/surface/sizing_field.hpp"
+
+namespace scan2fea {
+
+// How large the triangles are to be: exactly one of these.
+struct FaceCount {
+  std::size_t faces;  // at least 4 per component
+};
+struct FaceRatio {
+  double of_input;  // triangles of the result over those of the input, > 0
+};
+struct MeanEdgeLength {
+  double length;  // model units
+};
+struct LargestDeviation {
+  double distance;  // two-sided Hausdorff distance to the scan, model units
+};
+using TargetSize = std::variant<FaceCount, FaceRatio, MeanEdgeLength, LargestDeviation>;
+
+enum class SimplifyMethod {
+  collapse,  // the paper's: contractions predicted by a cost, vertices placed by a star objective
+  lattice,   // fields on the scan, extraction, then entropy and fit optimised together
+};
+
+// What to spend time on: `low` for previews and sweeps of parameters, `high` for fidelity.
+enum class Effort { low, normal, high };
+
+struct SimplifyOptions {
+  SimplifyMethod method = SimplifyMethod::lattice;
+  TargetSize size = FaceRatio{0.13};
+  Effort effort = Effort::normal;
+  Sizing sizing = Sizing::curvature;
+  double gradation = 0.12;  // largest |grad h| of the edge length h, 0.02 to 1; smaller is smoother
+  CollapseOptions collapse;  // objective, placement and cost of the `collapse` method; its face count is set by `size`
+};
+
+struct SimplifyResult {
+  SimplifyMethod method = SimplifyMethod::lattice;  // the one that made the result
+  std::string fallback_reason;                      // why `lattice` gave way to `collapse`; empty where it did not
+  std::size_t faces_before = 0;
+  std::size_t faces_after = 0;
+  std::size_t crossings_mended = 0;  // pairs of faces that passed through one another before the guard
+  double largest_deviation = 0;      // sampled, two-sided, model units; measured only where the size is one
+};
+
+// `mesh` must be closed, manifold, outward and free of self-intersections (see `repair`); so is the result, with the
+// same genus and components. The enclosed volume of every component is kept to rounding by the `lattice` method, and by
+// `collapse` where the lattice gave way to it; asked for directly, `collapse` is the paper's method as it is, and moves
+// only what passes through itself afterwards.
+// Throws NotMeshable where neither way gives a valid surface, WrongUsage for options out of range, Cancelled. On any
+// throw `mesh` is as it was. The same bytes for any number of threads. O(n log n).
+// Not guaranteed: a deviation asked for is met by samples of both surfaces, not by a bound on all points.
+SimplifyResult simplify(SurfaceMesh& mesh, const SimplifyOptions& options = {}, const Progress& progress = {});
+
+}  // namespace scan2fea

@@ -1,0 +1,211 @@
+// The command's contract, seen from outside: exit codes, one-line errors, no output on failure, the same bytes always.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <string>
+
+#include "preproc/mesh/read_surface.hpp"
+#include "preproc/mesh/write_surface.hpp"
+#include "tests/analytic_meshes.hpp"
+#include "tests/run_command.hpp"
+
+namespace scan2fea {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::file_content;
+using testing::run_command;
+using testing::TemporaryFolder;
+using testing::write_file;
+
+class Command : public ::testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  std::string scan_of_a_sphere() const {
+    write_surface(analytic::sphere(10, 4), path("sphere.ply"));
+    return path("sphere.ply");
+  }
+
+  // A failure exits with `code`, says one line that names the input, and leaves no output.
+  void expect_failure(const std::string& input, int code) const {
+    const std::string output = path("out.inp");
+    const auto result = run_command("run '" + path(input) + "' -o '" + output + "' --faces 500");
+    EXPECT_EQ(result.exit_code, code) << result.standard_error;
+    EXPECT_EQ(result.standard_output, "");
+    EXPECT_FALSE(std::filesystem::exists(output));
+    const std::string last_line = last_line_of(result.standard_error);
+    EXPECT_THAT(last_line, HasSubstr("scan2fea: "));
+    EXPECT_THAT(last_line, HasSubstr(input)) << "the line must name the file";
+  }
+
+  static std::string last_line_of(std::string text) {
+    while (!text.empty() && text.back() == '\n') text.pop_back();
+    const auto start = text.rfind('\n');
+    return start == std::string::npos ? text : text.substr(start + 1);
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Command, EmptyFileIsUnreadable) {
+  write_file(path("empty.stl"), "");
+  expect_failure("empty.stl", 3);
+}
+
+TEST_F(Command, TruncatedBinaryStlIsUnreadable) {
+  write_surface(analytic::sphere(1, 2), path("whole.stl"));
+  const std::string whole = file_content(path("whole.stl"));
+  write_file(path("cut.stl"), whole.substr(0, whole.size() / 2));
+  expect_failure("cut.stl", 3);
+}
+
+TEST_F(Command, TextNamedStlIsUnreadable) {
+  write_file(path("notes.stl"), "Minutes of the meeting.\nNothing was decided.\n");
+  expect_failure("notes.stl", 3);
+}
+
+TEST_F(Command, ObjIndexOutOfRangeNamesTheLine) {
+  write_file(path("bad.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 7\n");
+  expect_failure("bad.obj", 3);
+  EXPECT_THAT(run_command("check '" + path("bad.obj") + "'").standard_error, HasSubstr("bad.obj:4"));
+}
+
+TEST_F(Command, NotANumberIsUnreadable) {
+  write_file(path("nan.obj"), "v 0 0 0\nv 1 nan 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+  expect_failure("nan.obj", 3);
+}
+
+TEST_F(Command, PlyThatPromisesMoreThanItHoldsIsUnreadable) {
+  write_file(path("short.ply"),
+             "ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\nproperty float y\nproperty float z\n"
+             "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  expect_failure("short.ply", 3);
+}
+
+TEST_F(Command, DirectoryIsUnreadable) {
+  std::filesystem::create_directory(path("folder.stl"));
+  expect_failure("folder.stl", 3);
+}
+
+TEST_F(Command, MissingFileIsUnreadable) { expect_failure("absent.ply", 3); }
+
+TEST_F(Command, SingleTriangleIsNotMeshable) {
+  write_file(path("one.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  expect_failure("one.obj", 4);
+}
+
+TEST_F(Command, FlatClosedSurfaceIsNotMeshable) {
+  write_file(path("flat.obj"), "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\nf 1 3 2\nf 1 4 3\n");
+  expect_failure("flat.obj", 4);
+}
+
+TEST_F(Command, WrongFlagsAreWrongUsage) {
+  const std::string scan = scan_of_a_sphere();
+  const std::string out = " -o '" + path("out.ply") + "'";
+  EXPECT_EQ(run_command("").exit_code, 2);
+  EXPECT_EQ(run_command("fly").exit_code, 2);
+  EXPECT_EQ(run_command("surface '" + scan + "'").exit_code, 2) << "no output";
+  EXPECT_EQ(run_command("surface '" + scan + "'" + out + " --faces 500 --ratio 0.5").exit_code, 2) << "two sizes";
+  EXPECT_EQ(run_command("surface '" + scan + "'" + out + " --faces -3").exit_code, 2);
+  EXPECT_EQ(run_command("surface '" + scan + "'" + out + " --method magic").exit_code, 2);
+  EXPECT_EQ(run_command("surface '" + scan + "' -o '" + path("out.xyz") + "' --faces 500").exit_code, 2);
+  EXPECT_EQ(run_command("surface '" + scan + "'" + out + " --faces 500 --require 'beauty<=3'").exit_code, 2);
+  EXPECT_FALSE(std::filesystem::exists(path("out.ply")));
+}
+
+TEST_F(Command, ExistingOutputNeedsForce) {
+  const std::string scan = scan_of_a_sphere();
+  write_file(path("out.ply"), "precious");
+  const std::string command = "surface '" + scan + "' -o '" + path("out.ply") + "' --faces 500";
+  EXPECT_EQ(run_command(command).exit_code, 6);
+  EXPECT_EQ(file_content(path("out.ply")), "precious");
+  EXPECT_EQ(run_command(command + " --force").exit_code, 0);
+  EXPECT_GT(read_surface(path("out.ply")).triangles.size(), 400U);
+}
+
+TEST_F(Command, FailureLeavesAnExistingOutputAlone) {
+  write_file(path("one.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  write_file(path("out.ply"), "precious");
+  EXPECT_EQ(run_command("surface '" + path("one.obj") + "' -o '" + path("out.ply") + "' --force").exit_code, 4);
+  EXPECT_EQ(file_content(path("out.ply")), "precious");
+}
+
+TEST_F(Command, MissingFolderCannotBeWritten) {
+  EXPECT_EQ(run_command("surface '" + scan_of_a_sphere() + "' -o '" + path("no/such/out.ply") + "'").exit_code, 6);
+}
+
+TEST_F(Command, FailedGateExitsWithOneAndWritesNoMesh) {
+  const std::string command = "surface '" + scan_of_a_sphere() + "' -o '" + path("out.ply") + "' --faces 500 --json '" +
+                              path("report.json") + "' --require 'edge_ratio.mean<=1.0'";
+  EXPECT_EQ(run_command(command).exit_code, 1);
+  EXPECT_FALSE(std::filesystem::exists(path("out.ply")));
+  const auto report = nlohmann::json::parse(file_content(path("report.json")));
+  EXPECT_FALSE(report.at("gates").at(0).at("pass").get<bool>());
+}
+
+TEST_F(Command, RunFillsTheVolumeOfTheScan) {
+  const auto result = run_command("run '" + scan_of_a_sphere() + "' -o '" + path("part.inp") +
+                                  "' --faces 1000 --order 2 --quiet --json -");
+  ASSERT_EQ(result.exit_code, 0) << result.standard_error;
+  EXPECT_EQ(result.standard_error, "");
+  const auto report = nlohmann::json::parse(result.standard_output);
+  const double scan_volume = enclosed_volume(analytic::sphere(10, 4));
+  EXPECT_NEAR(report.at("volume_mesh").at("volume").get<double>(), scan_volume, 1e-3 * scan_volume);
+  EXPECT_EQ(report.at("volume_mesh").at("inverted").get<int>(), 0);
+  EXPECT_EQ(report.at("volume_mesh").at("order").get<int>(), 2);
+  EXPECT_EQ(report.at("surface").at("self_intersections").get<int>(), 0);
+  EXPECT_GE(report.at("stages").size(), 4U);
+  EXPECT_THAT(file_content(path("part.inp")), HasSubstr("C3D10"));
+}
+
+TEST_F(Command, BytesAreTheSameForAnyNumberOfThreads) {
+  const std::string command = "run '" + scan_of_a_sphere() + "' --faces 1000 -o '";
+  ASSERT_EQ(run_command(command + path("one.inp") + "' --threads 1").exit_code, 0);
+  ASSERT_EQ(run_command(command + path("two.inp") + "' --threads 2").exit_code, 0);
+  ASSERT_EQ(run_command(command + path("again.inp") + "' --threads 2").exit_code, 0);
+  const std::string one = file_content(path("one.inp"));
+  EXPECT_TRUE(one == file_content(path("two.inp")));
+  EXPECT_TRUE(one == file_content(path("again.inp")));
+}
+
+TEST_F(Command, ConfigurationGivesWhatFlagsLeaveOut) {
+  write_file(path("part.toml"), "ratio = 0.9\nseed = 3\n\n[surface]\nfaces = 300\n");
+  const std::string scan = scan_of_a_sphere();
+  ASSERT_EQ(run_command("surface '" + scan + "' -o '" + path("a.ply") + "' --config '" + path("part.toml") + "'").exit_code, 0);
+  EXPECT_NEAR(static_cast<double>(read_surface(path("a.ply")).triangles.size()), 300, 6);
+  ASSERT_EQ(run_command("surface '" + scan + "' -o '" + path("b.ply") + "' --faces 600 --config '" + path("part.toml") + "'").exit_code, 0);
+  EXPECT_NEAR(static_cast<double>(read_surface(path("b.ply")).triangles.size()), 600, 12);
+  write_file(path("typo.toml"), "faecs = 300\n");
+  const auto result = run_command("surface '" + scan + "' -o '" + path("c.ply") + "' --config '" + path("typo.toml") + "'");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.standard_error, HasSubstr("typo.toml:1"));
+}
+
+TEST_F(Command, ConvertKeepsTheMesh) {
+  const std::string scan = scan_of_a_sphere();
+  ASSERT_EQ(run_command("convert '" + scan + "' -o '" + path("sphere.off") + "'").exit_code, 0);
+  EXPECT_EQ(read_surface(path("sphere.off")).vertices, read_surface(scan).vertices);
+  ASSERT_EQ(run_command("run '" + scan + "' --faces 500 -o '" + path("part.vtu") + "'").exit_code, 0);
+  ASSERT_EQ(run_command("convert '" + path("part.vtu") + "' -o '" + path("part.msh") + "'").exit_code, 0);
+  const auto report = nlohmann::json::parse(run_command("check '" + path("part.msh") + "' --json -").standard_output);
+  EXPECT_EQ(report.at("volume_mesh").at("inverted").get<int>(), 0);
+  EXPECT_EQ(run_command("convert '" + scan + "' -o '" + path("sphere.inp") + "'").exit_code, 2) << "a surface is no volume mesh";
+}
+
+TEST_F(Command, CheckMeasuresAndGates) {
+  const std::string scan = scan_of_a_sphere();
+  const auto result = run_command("check '" + scan + "' --reference '" + scan + "' --json - --require closed==1");
+  ASSERT_EQ(result.exit_code, 0) << result.standard_error;
+  const auto report = nlohmann::json::parse(result.standard_output);
+  EXPECT_TRUE(report.at("surface").at("closed").get<bool>());
+  EXPECT_EQ(report.at("surface").at("genus").get<int>(), 0);
+  EXPECT_NEAR(report.at("deviation").at("hausdorff_pct_diagonal").get<double>(), 0, 1e-9);
+  EXPECT_EQ(run_command("check '" + scan + "' --require 'edge_ratio.max<=1.0'").exit_code, 1);
+}
+
+}  // namespace
+}  // namespace scan2fea
