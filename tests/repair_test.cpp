@@ -301,14 +301,33 @@ TEST(Repair, OpenFragmentsAreDropped) {
   EXPECT_EQ(result.count(RepairKind::DroppedFragment), 1u);
 }
 
-TEST(Repair, CrossingSpheresBecomeSound) {
-  SurfaceMesh mesh = analytic::join(analytic::sphere(1, 3), moved(analytic::sphere(1, 3), {1.21, 0.07, 0.03}));
-  const double two = enclosed_volume(mesh);
+TEST(Repair, CrossingSolidsBecomeOne) {
+  const SurfaceMesh ball = analytic::sphere(1, 4);
+  const double distance = 1.21;
+  SurfaceMesh mesh = analytic::join(ball, moved(ball, {distance, 0.07, 0.03}));
   const RepairResult result = repair(mesh);
   expect_sound(mesh);
-  EXPECT_GT(result.intersecting_pairs, 0u);
-  EXPECT_LT(enclosed_volume(mesh), two);
-  EXPECT_GT(enclosed_volume(mesh), 0.7 * two);
+  EXPECT_EQ(check_validity(mesh).components, 1u);
+  EXPECT_EQ(result.count(RepairKind::UnitedShell), 2u);
+  // Two balls less the lens that they have in common.
+  const double d = Vec3(distance, 0.07, 0.03).norm();
+  const double lens = std::numbers::pi * (4 + d) * (2 - d) * (2 - d) / 12;
+  EXPECT_NEAR(enclosed_volume(mesh), 2 * enclosed_volume(ball) - lens, 0.01);
+}
+
+TEST(Repair, BoxesThatTouchAlongFacesBecomeOne) {
+  SurfaceMesh mesh = analytic::join(analytic::box({2, 2, 1}, 1), moved(unit_box(1), {0.5, 0.5, 1}));
+  repair(mesh);
+  expect_sound(mesh);
+  EXPECT_EQ(check_validity(mesh).components, 1u);
+  EXPECT_NEAR(enclosed_volume(mesh), 5, 1e-9);
+}
+
+TEST(Repair, BoxWithinABoxThatReachesOutIsUnited) {
+  SurfaceMesh mesh = analytic::join(unit_box(3), moved(analytic::box({0.2, 0.2, 2}, 0.2), {0.4, 0.4, -0.5}));
+  repair(mesh);
+  expect_sound(mesh);
+  EXPECT_NEAR(enclosed_volume(mesh), 1 + 0.04, 1e-9);
 }
 
 TEST(Repair, ASpikeThroughTheFarSideIsCutWhereItIs) {

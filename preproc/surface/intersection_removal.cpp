@@ -3,6 +3,7 @@
 #include "preproc/surface/adjacency.hpp"
 #include "preproc/surface/components.hpp"
 #include "preproc/surface/hole_filling.hpp"
+#include "preproc/surface/shell_union.hpp"
 #include "preproc/surface/soup_adjacency.hpp"
 #include "preproc/surface/soup_cleaning.hpp"
 #include "quality/self_intersections.hpp"
@@ -196,6 +197,7 @@ void mark_non_manifold(const SurfaceMesh& mesh, std::vector<char>& marks) {
 IntersectionRemoval remove_intersections(SurfaceMesh& mesh, RepairResult& result, const Progress& progress) {
   std::vector<FacePair> pairs = find_self_intersections(mesh);
   result.intersecting_pairs = pairs.size();
+  if (!pairs.empty() && unite_shells(mesh, pairs, result)) pairs = find_self_intersections(mesh);
   if (!pairs.empty() && part_touching_vertices(mesh, marks_of(pairs, mesh.triangles.size()), result))
     pairs = find_self_intersections(mesh);
   if (!pairs.empty()) smooth_folds(mesh, pairs, result);

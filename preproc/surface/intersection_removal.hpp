@@ -7,12 +7,13 @@
 
 namespace scan2fea {
 
-// Vertices that only touch are drawn back a hundredth of the way to their neighbours. What still intersects is cut out
-// with a ring of neighbours and filled, in rounds: whatever intersects afterwards is cut with a wider ring, and every
-// other time filled by the plainest patch. Islands that a cut leaves, smaller than the cut itself, go with it.
-// Precondition: closed, manifold. The result is closed, and manifold unless intersections remain. It may have more
-// shells than before, some of them within others.
-// Costs one search for intersections for a sound surface, and a local search a round.
+// Solids that overlap are united (see unite_shells). Vertices that only touch are drawn back a hundredth of the way to
+// their neighbours. Folds are smoothed, within an edge length. What still intersects is cut out with a ring of
+// neighbours and filled, in rounds: whatever intersects afterwards is cut with a wider ring, and every other time
+// filled by the plainest patch. Islands that a cut leaves, smaller than the cut itself, go with it. Precondition:
+// closed, manifold. The result is closed, and manifold unless intersections remain. It may have more shells than
+// before, some of them within others. Costs one search for intersections for a sound surface, and a local search a
+// round.
 struct IntersectionRemoval {
   std::size_t remaining = 0;  // pairs that no round mended; 0 as a rule
   double area_cut = 0;        // of the faces of the input that are gone

@@ -7,6 +7,7 @@
 #include "preproc/surface/shells.hpp"
 #include "preproc/surface/soup_adjacency.hpp"
 #include "preproc/surface/soup_cleaning.hpp"
+#include "quality/validity.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +23,6 @@ constexpr double least_volume_of_area = 1e-6;
 constexpr double most_cut_of_area = 1.0 / 3;
 
 void clean_soup(SurfaceMesh& mesh, RepairResult& result) {
-  for (const Vec3& p : drop_unused_vertices(mesh)) result.changes.push_back({RepairKind::UnusedVertex, p, 0});
   drop_collapsed_faces(mesh, result);
   drop_duplicate_faces(mesh, result);
   const std::size_t before = result.changes.size();
@@ -78,11 +78,18 @@ RepairResult repair(SurfaceMesh& mesh, const RepairOptions& options, const Progr
   RepairResult result;
   check_input(mesh);
   progress("repair", 0);
-  clean_soup(mesh, result);
-  make_manifold(mesh, result);
+  for (const Vec3& p : drop_unused_vertices(mesh)) result.changes.push_back({RepairKind::UnusedVertex, p, 0});
+  const SurfaceValidity validity = check_validity(mesh);
+  const bool sound = validity.closed() && validity.manifold();  // then there is nothing to do but look for crossings
+  if (!sound) {
+    clean_soup(mesh, result);
+    make_manifold(mesh, result);
+  }
   drop_specks(mesh, options, result);
-  close_holes(mesh, {options.largest_hole_of_diagonal, options.fragment_of_area}, result, progress);
-  make_manifold(mesh, result);
+  if (!sound) {
+    close_holes(mesh, {options.largest_hole_of_diagonal, options.fragment_of_area}, result, progress);
+    make_manifold(mesh, result);
+  }
   mend_degenerate_faces(mesh, result);
   drop_flat_shells(mesh, options, result);
   orient_shells(mesh, result);

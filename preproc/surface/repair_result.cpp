@@ -33,6 +33,8 @@ std::string_view name(RepairKind kind) {
       return "closed hole";
     case RepairKind::PartedTouch:
       return "parted touch";
+    case RepairKind::UnitedShell:
+      return "united shell";
     case RepairKind::SmoothedFold:
       return "smoothed fold";
     case RepairKind::Intersection:

@@ -23,6 +23,7 @@ enum class RepairKind {
   DroppedInside,     // a piece that lay inside the solid after crossing parts were cut; size: its area
   ClosedHole,        // size: the diagonal of its border's bounding box
   PartedTouch,       // a vertex moved off one that it touched; size: the distance moved
+  UnitedShell,       // a solid that overlapped others, made one with them; size: its area
   SmoothedFold,      // a vertex smoothed because its faces crossed others; size: the distance moved
   Intersection,      // a group of faces that crossed others, cut out and filled; size: the area cut out
 };
