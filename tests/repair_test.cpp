@@ -120,7 +120,7 @@ TEST(Repair, ALargeHoleIsAnErrorThatNamesItsPlaceSizeAndRemedy) {
       message_of_failure(without_faces(unit_box(4), [](const Vec3& c) { return c.z() > 1 - 1e-9; }));
   EXPECT_THAT(message, HasSubstr("(0.5, 0.5, 1)"));
   EXPECT_THAT(message, HasSubstr("1.41421"));
-  EXPECT_THAT(message, HasSubstr("--close-holes all"));
+  EXPECT_THAT(message, HasSubstr("--largest-hole all"));
 }
 
 TEST(Repair, HoleInASphereIsClosedInItsShape) {

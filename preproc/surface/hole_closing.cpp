@@ -94,7 +94,7 @@ void close_holes(SurfaceMesh& mesh, const HoleClosingOptions& options, RepairRes
                            .where = error_text(large[s]->place),
                            .value = "size " + error_text(large[s]->size),
                            .limit = error_text(large[s]->limit),
-                           .advice = "--close-holes all, or a scan of what is missing"});
+                           .advice = "--largest-hole all, or a scan of what is missing"});
     }
     drop_shells(mesh, shells, fragments, RepairKind::DroppedFragment, result);
     twins = find_twins(mesh);
