@@ -62,8 +62,10 @@ SurfaceDefects find_defects(const SurfaceMesh& mesh, const ReferenceSurface& sca
       const Vec3 centroid = (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3;
       if (!scan_agrees(scan, near[f], centroid, edge, normal)) defects.inverted.push_back(f);
     }
-    if (smallest_angle_deg(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]) < least_angle_deg) {
+    const double angle = smallest_angle_deg(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
+    if (angle < least_angle_deg) {
       defects.small_angles.push_back(f);
+      defects.missing_angles_deg += least_angle_deg - angle;
     }
   }
   return defects;

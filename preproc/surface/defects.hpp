@@ -13,6 +13,7 @@ struct SurfaceDefects {
   std::vector<FacePair> crossings;          // see find_self_intersections
   std::vector<std::uint32_t> inverted;      // faces whose normal opposes the scan's all around
   std::vector<std::uint32_t> small_angles;  // faces with an angle under the limit
+  double missing_angles_deg = 0;            // sum of what their smallest angles lack
 
   bool none() const { return crossings.empty() && inverted.empty() && small_angles.empty(); }
   // Whether a volume mesher can take the surface: small angles only cost quality.

@@ -1,5 +1,6 @@
 #include "preproc/surface/guard.hpp"
 
+#include "preproc/surface/nearest_vertices.hpp"
 #include "preproc/surface/preserve_volume.hpp"
 #include "preproc/surface/shape_fit.hpp"
 #include "preproc/surface/untangle.hpp"
@@ -14,6 +15,17 @@ namespace {
 // Enough for a tangle to spread out, few enough to leave the rest of the surface alone.
 constexpr int rings_of_repair = 2;
 constexpr int smoothing_sweeps = 10;
+// Some angles cannot be had (a sharp corner of the part): then further rounds are in vain.
+constexpr int most_rounds_without_gain = 3;
+// Of an edge: more than the volume's shift, less than any mending.
+constexpr double negligible_move = 0.005;
+
+// Nothing that crosses or is inverted comes before every angle.
+bool is_better(const SurfaceDefects& a, const SurfaceDefects& b) {
+  const std::size_t harm_a = a.crossings.size() + a.inverted.size();
+  const std::size_t harm_b = b.crossings.size() + b.inverted.size();
+  return harm_a != harm_b ? harm_a < harm_b : a.missing_angles_deg < b.missing_angles_deg;
+}
 
 std::vector<std::uint32_t> faces_of(const SurfaceDefects& defects) {
   std::vector<std::uint32_t> faces = defects.inverted;
@@ -29,8 +41,10 @@ void remove_fixed(std::vector<bool>& movable, const VertexConstraints& constrain
 }
 
 // Once more weight on shape, where `movable` is set.
-void refit(SurfaceMesh& mesh, const ReferenceSurface& scan, const std::vector<bool>& movable, double fidelity) {
+void refit(SurfaceMesh& mesh, const ReferenceSurface& scan, const std::vector<bool>& movable, double fidelity,
+           const std::vector<std::uint32_t>& nearest_to_scan) {
   ShapeFitOptions fit;
+  fit.nearest_vertex_of_scan_vertex = nearest_to_scan;
   fit.fidelity_of_diagonal = fidelity;
   fit.rounds = 2;
   fit.constraints.resize(mesh.vertices.size());
@@ -41,7 +55,8 @@ void refit(SurfaceMesh& mesh, const ReferenceSurface& scan, const std::vector<bo
 }
 
 void mend(SurfaceMesh& mesh, const ReferenceSurface& scan, const SurfaceDefects& defects, int round,
-          const GuardOptions& options, const std::vector<std::uint32_t>& near) {
+          const GuardOptions& options, const std::vector<std::uint32_t>& near,
+          const std::vector<std::uint32_t>& nearest_to_scan) {
   std::vector<bool> movable = vertices_around(mesh, faces_of(defects), rings_of_repair + round / 2);
   remove_fixed(movable, options.constraints);
   if (!defects.meshable()) {
@@ -57,7 +72,7 @@ void mend(SurfaceMesh& mesh, const ReferenceSurface& scan, const SurfaceDefects&
   } else if (round > 0) {
     flip_worst(mesh, scan, near, movable);
   }
-  refit(mesh, scan, movable, std::min(0.05, options.fidelity_of_diagonal * std::pow(1.5, round + 1)));
+  refit(mesh, scan, movable, std::min(0.05, options.fidelity_of_diagonal * std::pow(1.5, round + 1)), nearest_to_scan);
   // Last, since the fit pulls crossing sheets back to where they crossed.
   if (!defects.crossings.empty()) {
     push_apart(mesh, scan, near, find_self_intersections(mesh), options.constraints);
@@ -81,30 +96,38 @@ GuardResult guard_surface(SurfaceMesh& mesh, const ReferenceSurface& scan, const
   std::vector<std::uint32_t> near = scan_vertices_of_faces(mesh, scan);
   result.before = find_defects(mesh, scan, near, options.least_angle_deg);
   result.after = result.before;
-  std::vector<bool> moved(mesh.vertices.size(), false);
-  for (; result.rounds < options.rounds && !result.after.none(); ++result.rounds) {
+  if (result.before.none()) return result;
+
+  const double edge = std::sqrt(scan.area / static_cast<double>(mesh.triangles.size()));
+  const std::vector<std::uint32_t> nearest_to_scan =
+      nearest_vertices(scan.mesh.vertices, scan.vertex_normals, mesh, edge);
+  const SurfaceMesh given = mesh;
+  SurfaceMesh best = mesh;
+  SurfaceDefects now = result.before;
+  int rounds_without_gain = 0;
+  for (; result.rounds < options.rounds && rounds_without_gain < most_rounds_without_gain; ++result.rounds) {
     progress("guard", static_cast<double>(result.rounds) / options.rounds);
-    const SurfaceMesh start = mesh;
-    mend(mesh, scan, result.after, result.rounds, options, near);
-    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-      const double move = (mesh.vertices[v] - start.vertices[v]).norm();
-      if (move > 0) moved[v] = true;
-      result.largest_move = std::max(result.largest_move, move);
-    }
+    mend(mesh, scan, now, result.rounds, options, near, nearest_to_scan);
     if (options.keep_volume) preserve_volume(mesh, scan.mesh, options.constraints);
     near = scan_vertices_of_faces(mesh, scan);
-    const SurfaceDefects now = find_defects(mesh, scan, near, options.least_angle_deg);
-    // Raising an angle is no reason to break something, nor to go on for ever without gain.
-    const auto harm = [](const SurfaceDefects& d) { return d.crossings.size() + d.inverted.size(); };
-    const bool worse = harm(now) > harm(result.after) || (harm(now) == harm(result.after) && harm(now) == 0 &&
-                                                          now.small_angles.size() > result.after.small_angles.size());
-    if (worse && result.after.meshable()) {
-      mesh = start;
-      break;
+    now = find_defects(mesh, scan, near, options.least_angle_deg);
+    ++rounds_without_gain;
+    if (is_better(now, result.after)) {
+      result.after = now;
+      best = mesh;
+      rounds_without_gain = 0;
+      if (now.none()) {
+        ++result.rounds;
+        break;
+      }
     }
-    result.after = now;
   }
-  result.moved = static_cast<std::size_t>(std::count(moved.begin(), moved.end(), true));
+  mesh = std::move(best);
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const double move = (mesh.vertices[v] - given.vertices[v]).norm();
+    if (move > negligible_move * edge) ++result.moved;
+    result.largest_move = std::max(result.largest_move, move);
+  }
   return result;
 }
 

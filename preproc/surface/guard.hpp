@@ -30,8 +30,8 @@ struct GuardOptions {
 struct GuardResult {
   SurfaceDefects before;
   SurfaceDefects after;     // empty but for small angles where `clean`
-  int rounds = 0;           // that were needed
-  std::size_t moved = 0;    // vertices that the mending moved (the volume's shift apart)
+  int rounds = 0;           // of mending; the best state is returned
+  std::size_t moved = 0;    // vertices that the mending moved, by more than the volume's shift
   double largest_move = 0;  // of one of them, model units
   bool clean() const { return after.meshable(); }
 };

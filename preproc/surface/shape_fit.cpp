@@ -118,19 +118,44 @@ class Fitter {
     return options_.constraints.empty() || options_.constraints[v] == VertexConstraint::free;
   }
 
+  // Whether samples whose search starts at the vertex can matter to a free one: two rings is as far as they walk.
+  std::vector<bool> vertices_of_interest() const {
+    if (options_.constraints.empty()) return std::vector<bool>(mesh_.vertices.size(), true);
+    std::vector<bool> of_interest(mesh_.vertices.size());
+    for (std::uint32_t v = 0; v < of_interest.size(); ++v) of_interest[v] = is_free(v);
+    for (int ring = 0; ring < 2; ++ring) {
+      std::vector<bool> grown = of_interest;
+      for (const Triangle& t : mesh_.triangles) {
+        if (of_interest[t[0]] || of_interest[t[1]] || of_interest[t[2]]) grown[t[0]] = grown[t[1]] = grown[t[2]] = true;
+      }
+      of_interest = std::move(grown);
+    }
+    return of_interest;
+  }
+
   void start_locations() {
-    normals_ = face_normals(mesh_);
     const std::vector<std::uint32_t> nearest =
         options_.nearest_vertex_of_scan_vertex
             ? *options_.nearest_vertex_of_scan_vertex
             : nearest_vertices(scan_.mesh.vertices, scan_.vertex_normals, mesh_, mean_edge_);
+    const std::vector<bool> of_interest = vertices_of_interest();
+    std::size_t kept = 0;
+    for (std::size_t s = 0; s < forward_.samples.size(); ++s) {
+      if (!of_interest[nearest[forward_.vertex[s]]]) continue;
+      forward_.samples[kept] = forward_.samples[s];
+      forward_.vertex[kept] = forward_.vertex[s];
+      ++kept;
+    }
+    forward_.samples.resize(kept);
+    forward_.vertex.resize(kept);
+
+    normals_ = face_normals(mesh_);
     const WalkableMesh on{mesh_, stars_, neighbours_, normals_};
-    locations_.resize(forward_.samples.size());
-    tbb::parallel_for(Range(0, locations_.size(), 1024), [&](const Range& range) {
+    locations_.resize(kept);
+    tbb::parallel_for(Range(0, kept, 1024), [&](const Range& range) {
       for (std::size_t s = range.begin(); s < range.end(); ++s) {
-        const std::uint32_t v = nearest[forward_.vertex[s]];
-        locations_[s] =
-            locate(on, forward_.samples[s], stars_.corners(v).front() / 3, suspicious_part_of_edge * mean_edge_);
+        const std::uint32_t start = stars_.corners(nearest[forward_.vertex[s]]).front() / 3;
+        locations_[s] = locate(on, forward_.samples[s], start, suspicious_part_of_edge * mean_edge_);
       }
     });
     sort_samples();
@@ -199,7 +224,7 @@ class Fitter {
       total += forward_.samples[s].weight;
       largest = std::max(largest, squared);
     }
-    result.rms_distance = std::sqrt(sum / total);
+    result.rms_distance = total > 0 ? std::sqrt(sum / total) : 0;
     result.largest_distance = std::sqrt(largest);
     result.samples = locations_.size();
   }

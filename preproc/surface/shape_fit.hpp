@@ -35,6 +35,7 @@ struct ShapeFitOptions {
   std::optional<double> lift_tail_of_diagonal;
   double most_lift = 20;
   ShapeEnergy shape;
+  // Where most vertices are fixed, only the samples around the free ones are looked at, and measured.
   VertexConstraints constraints;
   // Per scan vertex a vertex of the mesh near it, to start the first location from (the lattice extraction knows it);
   // where absent, a k-d tree finds one.
