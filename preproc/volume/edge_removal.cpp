@@ -24,9 +24,9 @@ double triangle_quality(const TetComplex& complex, const Ring& ring, std::size_t
   const Vec3& p = complex.node(ring.vertices[i]);
   const Vec3& q = complex.node(ring.vertices[k]);
   const Vec3& r = complex.node(ring.vertices[j]);
-  const double over = goal_quality(p, q, r, complex.node(ring.b));
+  const double over = goal_quality(p, q, r, complex.node(ring.b), floor);
   if (over <= floor) return over;
-  return std::min(over, goal_quality(p, r, q, complex.node(ring.a)));
+  return std::min(over, goal_quality(p, r, q, complex.node(ring.a), floor));
 }
 
 Triangulation triangulate(const TetComplex& complex, const Ring& ring, double floor) {
@@ -71,11 +71,15 @@ void collect(const TetComplex& complex, const Ring& ring, const Triangulation& t
 
 }  // namespace
 
-bool remove_edge(TetComplex& complex, std::uint32_t t, std::size_t i, std::size_t j, double gain) {
+bool remove_edge(TetComplex& complex, std::uint32_t t, std::size_t i, std::size_t j, double gain, std::uint32_t tried) {
   Ring ring;
   if (!complex.ring(t, i, j, ring) || ring.size < 3) return false;
   double before = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < ring.size; ++k) before = std::min(before, complex.quality(ring.elements[k]));
+  for (std::size_t k = 0; k < ring.size; ++k) {
+    const TetComplex::Element& element = complex.element(ring.elements[k]);
+    if (element.tried & tried) return false;
+    before = std::min(before, element.quality);
+  }
   const double floor = std::max(before * gain, 0.0);
   const Triangulation triangulation = triangulate(complex, ring, floor);
   if (!(triangulation.best[0][ring.size - 1] > floor)) return false;

@@ -9,6 +9,8 @@ namespace scan2fea {
 // `gain`. The ring's triangulation is the best of all, by dynamic programming over its polygons (Klincsek, "Minimal
 // triangulations of polygonal domains", 1980; Shewchuk, "Two discrete optimization algorithms for the topological
 // improvement of tetrahedral meshes", 2002). At most 7 elements around the edge, 70 qualities.
-bool remove_edge(TetComplex& complex, std::uint32_t t, std::size_t i, std::size_t j, double gain);
+// Gives up at once where another element of the ring carries a bit of `tried`: the edge was tried from there.
+bool remove_edge(TetComplex& complex, std::uint32_t t, std::size_t i, std::size_t j, double gain,
+                 std::uint32_t tried = 0);
 
 }  // namespace scan2fea

@@ -47,7 +47,7 @@ bool smooth_by_entropy(const StarFaces& faces, Vec3& x, double& quality) {
   for (int attempt = 0; attempt < 3; ++attempt, step /= 2) {
     const Vec3 candidate = x + step;
     const double reached = star_quality(faces, candidate, quality);
-    if (reached < quality || reached <= 0) continue;
+    if (reached <= quality) continue;
     x = candidate;
     quality = reached;
     return true;

@@ -9,7 +9,7 @@ namespace scan2fea {
 //   eta = (sum of squared edges) / (12 (3 V)^(2/3)),
 // 1 where it is regular and infinite where it is flat: the weighted entropy that places surface vertices (Phi), one
 // dimension up. The Hessian is of closed form. The step is halved twice at most, and taken only if the star's least
-// quality does not fall below `quality`, which it then updates with x. Returns whether x moved. Some 5 us.
+// quality rises above `quality`, which it then updates with x. Returns whether x moved. Some 5 us.
 bool smooth_by_entropy(const StarFaces& faces, Vec3& x, double& quality);
 
 }  // namespace scan2fea

@@ -39,6 +39,18 @@ bool same_turn(const Triangle& face, const Triangle& triangle) {
   return triangle[(k + 1) % 3] == face[1];
 }
 
+// Interior nodes come last and are numbered along a space-filling curve: in the order of their last nodes, tetrahedra
+// that are near in space are near in memory.
+std::vector<std::uint32_t> by_largest_corner(const std::vector<Tetrahedron>& tetrahedra, std::size_t node_count) {
+  std::vector<std::uint32_t> begin(node_count + 1, 0);
+  const auto largest = [&](const Tetrahedron& t) { return *std::max_element(t.begin(), t.end()); };
+  for (const Tetrahedron& t : tetrahedra) ++begin[largest(t) + 1];
+  for (std::size_t v = 0; v < node_count; ++v) begin[v + 1] += begin[v];
+  std::vector<std::uint32_t> order(tetrahedra.size());
+  for (std::uint32_t t = 0; t < tetrahedra.size(); ++t) order[begin[largest(tetrahedra[t])]++] = t;
+  return order;
+}
+
 // The tetrahedra that can be reached from the first without crossing a triangle, and on which side of these they lie.
 struct Region {
   std::vector<std::uint32_t> tetrahedra;
@@ -89,7 +101,7 @@ TetMesh fill_regions(std::vector<Vec3> nodes, std::vector<Tetrahedron> tetrahedr
 
   TetMesh mesh;
   mesh.boundary.assign(triangles.size(), {no_link, 0});
-  for (std::uint32_t t = 0; t < tetrahedra.size(); ++t) {
+  for (const std::uint32_t t : by_largest_corner(tetrahedra, nodes.size())) {
     if (!filled[t]) continue;
     for (std::size_t k = 0; k < 4; ++k)
       if (const std::uint32_t triangle = links.triangle[t][k]; triangle != no_link)

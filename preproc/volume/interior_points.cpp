@@ -110,7 +110,7 @@ class LatticeTree {
     const double half_diagonal = std::sqrt(0.75) * cell;
     if (!answer.inside && answer.distance > half_diagonal) return;
     // The geometric middle between this cell and its halves decides.
-    if (width > 2 && cell > std::sqrt(2.0) * wanted_cell(answer)) {
+    if (width > 2 && cell > 1.35 * wanted_cell(answer)) {
       for (std::uint32_t child = 0; child < 8; ++child)
         visit({{low.at[0] + (child & 1) * width / 2, low.at[1] + (child >> 1 & 1) * width / 2,
                 low.at[2] + (child >> 2) * width / 2}},
@@ -161,7 +161,7 @@ std::vector<double> surface_sizes(const SurfaceMesh& surface) {
     }
   for (std::size_t v = 0; v < size.size(); ++v)
     if (weight[v] > 0) size[v] /= weight[v];
-  for (int round = 0; round < 2; ++round) {
+  for (int round = 0; round < 4; ++round) {
     std::vector<double> sum(size.size(), 0), count(size.size(), 0);
     for (const Triangle& t : surface.triangles)
       for (std::size_t k = 0; k < 3; ++k) {

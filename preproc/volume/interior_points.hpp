@@ -21,7 +21,7 @@ struct InteriorSize {
   Unit unit = Unit::of_surface;
 };
 
-// The mean length of the edges around each vertex, smoothed twice.
+// The mean length of the edges around each vertex, smoothed four times.
 std::vector<double> surface_sizes(const SurfaceMesh& surface);
 
 // A body-centred cubic lattice, on an octree where sizes differ: centres and corners of its cells, those that are

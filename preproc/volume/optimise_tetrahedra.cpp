@@ -34,15 +34,17 @@ class Optimisation {
     result_.worst_before = worst();
     for (int round = 0; round < 3; ++round) {
       topology(false);
+      report(0.1 + 0.15 * round);
       smoothing();
-      report(0.1 * (round + 1));
+      report(0.15 + 0.15 * round);
     }
     relocation();
     for (int round = 0; round < options_.insertion_rounds; ++round) {
+      report(0.5 + 0.5 * round / options_.insertion_rounds);
       topology(true);
       relocation();
-      report(0.4 + 0.6 * (round + 1) / options_.insertion_rounds);
     }
+    report(1);
     result_.worst_after = worst();
     return result_;
   }
@@ -65,7 +67,7 @@ class Optimisation {
     return least;
   }
 
-  void report(double fraction) const { progress_("optimise", std::min(fraction, 1.0)); }
+  void report(double fraction) const { progress_("optimise", fraction); }
 
   // Looks at the clock and for an interrupt now and then only.
   bool time_is_up() {
@@ -115,15 +117,18 @@ class Optimisation {
     if (complex_.element(t).tried & tried_topology) return false;
     for (std::size_t i = 0; i < 4; ++i)
       for (std::size_t j = i + 1; j < 4; ++j)
-        if (remove_edge(complex_, t, i, j, topology_gain)) {
+        if (remove_edge(complex_, t, i, j, topology_gain, tried_topology)) {
           ++result_.edge_removals;
           return true;
         }
-    for (std::size_t k = 0; k < 4; ++k)
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::uint32_t n = complex_.element(t).link[k];
+      if ((n & TetComplex::boundary_bit) || (complex_.element(n).tried & tried_topology)) continue;
       if (remove_faces(complex_, t, k, topology_gain)) {
         ++result_.face_removals;
         return true;
       }
+    }
     complex_.mark_tried(t, tried_topology);
     return false;
   }
@@ -149,10 +154,14 @@ class Optimisation {
   }
 
   void smoothing() {
+    // Which stars are worth a look, by one pass over the elements in the order of memory.
+    std::vector<double> least(complex_.node_count(), std::numeric_limits<double>::infinity());
+    for (std::uint32_t t = 0; t < complex_.slot_count(); ++t)
+      if (complex_.alive(t))
+        for (const std::uint32_t v : complex_.element(t).corners) least[v] = std::min(least[v], complex_.quality(t));
     for (std::uint32_t v = 0; v < complex_.node_count() && !time_is_up(); ++v) {
-      if (complex_.fixed(v) || !complex_.used(v)) continue;
+      if (least[v] > smoothing_threshold || complex_.fixed(v)) continue;
       double quality = look_from(v);
-      if (quality > smoothing_threshold) continue;
       Vec3 place = complex_.node(v);
       if (smooth_by_entropy(faces_, place, quality)) complex_.move_node(v, place, around_);
     }

@@ -154,7 +154,7 @@ bool VertexInsertion::grow(const TetComplex& complex, const CavityFace& worst, c
     const std::uint32_t n = element.link[k];
     if (!(n & TetComplex::boundary_bit) && complex.marked(n)) continue;
     const Triangle f = face_opposite(element.corners, k);
-    const double quality = goal_quality(complex.node(f[0]), complex.node(f[2]), complex.node(f[1]), place);
+    const double quality = goal_quality(complex.node(f[0]), complex.node(f[2]), complex.node(f[1]), place, to_beat);
     if (quality <= to_beat) return false;
     trial_.push_back({{f[0], f[2], f[1]}, t, n, quality});
   }
@@ -176,7 +176,7 @@ bool VertexInsertion::shrink(const TetComplex& complex, const CavityFace& worst,
     if ((n & TetComplex::boundary_bit) || !complex.marked(n)) continue;
     const Triangle f = face_opposite(element.corners, k);
     // The face as the neighbour sees it.
-    const double quality = goal_quality(complex.node(f[0]), complex.node(f[1]), complex.node(f[2]), place);
+    const double quality = goal_quality(complex.node(f[0]), complex.node(f[1]), complex.node(f[2]), place, to_beat);
     if (quality <= to_beat) return false;
     trial_.push_back({f, n, t, quality});
   }

@@ -13,12 +13,11 @@ namespace scan2fea {
 // The faces opposite the vertex x, each such that (f[0], f[1], f[2], x) is a positive tetrahedron.
 using StarFaces = std::vector<std::array<Vec3, 3>>;
 
-// The least goal_quality of the star's elements with the vertex at x; exact only above `floor`.
-inline double star_quality(const StarFaces& faces, const Vec3& x,
-                           double floor = -std::numeric_limits<double>::infinity()) {
+// The least goal_quality of the star's elements with the vertex at x; like it, exact only above `floor`.
+inline double star_quality(const StarFaces& faces, const Vec3& x, double floor = 0) {
   double least = std::numeric_limits<double>::infinity();
   for (const auto& f : faces) {
-    const double q = goal_quality(f[0], f[1], f[2], x);
+    const double q = goal_quality(f[0], f[1], f[2], x, floor);
     if (q < least) least = q;
     if (least <= floor) break;
   }
