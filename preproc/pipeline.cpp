@@ -87,8 +87,8 @@ void describe(const TetrahedralizeResult& result, StageRecord& record) {
                     {"nodes", static_cast<double>(result.mesh.nodes.size())},
                     {"surface_allows_min_dihedral_deg", result.bound.min_dihedral_deg},
                     {"surface_allows_scaled_jacobian", result.bound.scaled_jacobian}};
-  record.remarks = {"the surface's sharpest edge is at " + coordinates(result.bound.sharpest_edge),
-                    "its worst triangle is at " + coordinates(result.bound.worst_triangle_centre)};
+  record.remarks = {"the surface bounds the dihedral angle at " + coordinates(result.bound.min_dihedral_at),
+                    "and the scaled Jacobian at " + coordinates(result.bound.scaled_jacobian_at)};
   if (result.optimised.stopped_by_time) record.remarks.push_back("the time limit ended the optimisation early");
 }
 
@@ -116,7 +116,13 @@ PipelineResult run_pipeline(SurfaceMesh scan, const PipelineOptions& options, co
       log.run("second order", [&](StageRecord& record) {
         const std::size_t corners = result.volume_mesh->nodes.size();
         add_mid_edge_nodes(*result.volume_mesh);
-        record.changes = {{"nodes_added", static_cast<double>(result.volume_mesh->nodes.size() - corners)}};
+        const CurveResult curved = curve_mid_edge_nodes(*result.volume_mesh, TriangleTree(result.scan));
+        record.changes = {{"nodes_added", static_cast<double>(result.volume_mesh->nodes.size() - corners)},
+                          {"curved_edges", static_cast<double>(curved.curved)},
+                          {"straight_edges_too_far", static_cast<double>(curved.too_far)},
+                          {"straight_edges_for_validity", static_cast<double>(curved.invalid)},
+                          {"least_jacobian_of_straight", curved.least_jacobian},
+                          {"curved_volume", curved.volume}};
       });
   }
   return result;

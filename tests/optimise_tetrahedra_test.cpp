@@ -7,12 +7,14 @@
 #include "preproc/volume/tet_complex.hpp"
 #include "preproc/volume/tet_quality.hpp"
 #include "preproc/volume/tetrahedralize.hpp"
+#include "quality/tetrahedron_measures.hpp"
 #include "tests/analytic_meshes.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <numeric>
+#include <cmath>
+#include <random>
 
 namespace scan2fea {
 namespace {
@@ -45,12 +47,31 @@ void expect_same_boundary(const TetMesh& before, const TetMesh& after) {
 
 TEST(TetQuality, RegularTetrahedron) {
   const Vec3 a(1, 1, 1), b(-1, 1, -1), c(1, -1, -1), d(-1, -1, 1);
-  const TetMeasures m = tet_measures(a, b, c, d);
-  EXPECT_NEAR(m.min_dihedral_deg, 70.528779, 1e-6);
-  EXPECT_NEAR(m.max_dihedral_deg, 70.528779, 1e-6);
-  EXPECT_NEAR(m.scaled_jacobian, 1, 1e-12);
-  EXPECT_GT(goal_quality(a, b, c, d), 2.3);
-  EXPECT_LT(goal_quality(b, a, c, d), 0);
+  EXPECT_NEAR(goal_quality(a, b, c, d), std::sqrt(8.0 / 9) / std::sin(22 * M_PI / 180), 1e-12);
+  EXPECT_EQ(goal_quality(b, a, c, d), 0);
+}
+
+TEST(TetQuality, IsOneAtEachOfItsThreeGoals) {
+  // Against the measures of the quality library, on many shapes.
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> coordinate(0, 1);
+  const auto point = [&] { return Vec3(coordinate(random), coordinate(random), coordinate(random)); };
+  const double degree = M_PI / 180;
+  for (int k = 0; k < 1000; ++k) {
+    const Vec3 a = point(), b = point(), c = point(), d = point();
+    const TetShape shape = measure_tetrahedron(a, b, c, d);
+    const double expected = std::min({std::sin(shape.min_dihedral_deg * degree) / std::sin(22 * degree),
+                                      (1 + std::cos(shape.max_dihedral_deg * degree)) / (1 + std::cos(138 * degree)),
+                                      shape.scaled_jacobian / 0.28});
+    EXPECT_NEAR(goal_quality(a, b, c, d), std::max(expected, 0.0), 1e-9);
+    // A floor changes nothing above it.
+    const double floor = coordinate(random);
+    const double floored = goal_quality(a, b, c, d, floor);
+    if (expected > floor + 1e-9)
+      EXPECT_EQ(floored, goal_quality(a, b, c, d));
+    else
+      EXPECT_LE(floored, floor + 1e-9);
+  }
 }
 
 TEST(TetQuality, DoesNotDependOnTheOrderOfCornersNorOnSize) {

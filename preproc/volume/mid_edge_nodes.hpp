@@ -25,10 +25,11 @@ struct CurveResult {
   std::size_t invalid = 0;          // that stayed straight because an element would have suffered
   double largest_displacement = 0;  // model units
   double least_jacobian = 1;        // over all elements, of the straight Jacobian: a lower bound
+  double volume = 0;                // enclosed by the curved mesh
 };
 
 // Moves the mid-edge nodes of the boundary to the nearest points of the scan, where all elements stay valid by the
-// bound of jacobian_coefficients; the others stay in the middle of their edges. The mesh is of second order with
+// bound of min_jacobian_bound; the others stay in the middle of their edges. The mesh is of second order with
 // straight edges and positive tetrahedra; corners stay, so they should lie on the scan themselves. O(n log m) for m
 // scan triangles; deterministic. Throws nothing of its own.
 CurveResult curve_mid_edge_nodes(TetMesh& mesh, const TriangleTree& scan, const CurveOptions& options = {});

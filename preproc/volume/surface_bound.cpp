@@ -1,10 +1,11 @@
 #include "preproc/volume/surface_bound.hpp"
 
-#include "preproc/volume/tet_quality.hpp"
+#include "quality/tetrahedron_measures.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <tuple>
 #include <vector>
 
@@ -29,17 +30,30 @@ std::vector<Side> sides(const SurfaceMesh& surface) {
   return result;
 }
 
-// Of the edge between two triangles; 180 where it is flat or concave.
-double best_angle_deg(const SurfaceMesh& surface, const Side& first, const Side& second) {
+// Of a triangle's side: the height over it, over the longer of the other two sides.
+double slenderness(const SurfaceMesh& surface, const Side& side) {
+  const Vec3 &a = surface.vertices[side.tail], &b = surface.vertices[side.head], &c = surface.vertices[side.apex];
+  const double height = (b - a).cross(c - a).norm() / (b - a).norm();
+  return height / std::max((c - a).norm(), (c - b).norm());
+}
+
+struct EdgeBound {
+  double min_dihedral_deg, scaled_jacobian;
+};
+
+std::optional<EdgeBound> convex_edge_bound(const SurfaceMesh& surface, const Side& first, const Side& second) {
   const auto& p = surface.vertices;
   const Vec3 n = area_vector(surface, surface.triangles[first.triangle]);
   const Vec3 m = area_vector(surface, surface.triangles[second.triangle]);
   const Vec3 along = (p[first.head] - p[first.tail]).normalized();
   const double turn = std::atan2(n.cross(m).dot(along), n.dot(m));  // positive where convex
-  if (!(turn > 0)) return 180;
-  const double shared = (180 - turn * 180 / std::numbers::pi) / 2;
-  const double filled = tet_measures(p[first.tail], p[first.apex], p[first.head], p[second.apex]).min_dihedral_deg;
-  return std::max(shared, filled);
+  if (!(turn > 0)) return std::nullopt;
+  const double half = (std::numbers::pi - turn) / 2;
+  const double jacobian =
+      std::numbers::sqrt2 * std::sin(half) * std::max(slenderness(surface, first), slenderness(surface, second));
+  const TetShape filled = measure_tetrahedron(p[first.tail], p[first.apex], p[first.head], p[second.apex]);
+  return EdgeBound{std::max(half * 180 / std::numbers::pi, filled.min_dihedral_deg),
+                   std::max(jacobian, filled.scaled_jacobian)};
 }
 
 }  // namespace
@@ -47,24 +61,27 @@ double best_angle_deg(const SurfaceMesh& surface, const Side& first, const Side&
 SurfaceBound surface_bound(const SurfaceMesh& surface) {
   SurfaceBound bound;
   const auto& p = surface.vertices;
+  const auto limit_jacobian = [&](double jacobian, const Vec3& place) {
+    if (jacobian >= bound.scaled_jacobian) return;
+    bound.scaled_jacobian = jacobian;
+    bound.scaled_jacobian_at = place;
+  };
   const std::vector<Side> all = sides(surface);
   for (std::size_t i = 0; i + 1 < all.size(); ++i) {
     if (all[i].tail != all[i + 1].head || all[i].head != all[i + 1].tail) continue;
-    const double angle = best_angle_deg(surface, all[i], all[i + 1]);
-    if (angle >= bound.min_dihedral_deg) continue;
-    bound.min_dihedral_deg = angle;
-    bound.sharpest_edge = (p[all[i].tail] + p[all[i].head]) / 2;
-    bound.sharpest_edge_triangle = all[i].triangle;
+    const auto edge = convex_edge_bound(surface, all[i], all[i + 1]);
+    if (!edge) continue;
+    const Vec3 middle = (p[all[i].tail] + p[all[i].head]) / 2;
+    limit_jacobian(edge->scaled_jacobian, middle);
+    if (edge->min_dihedral_deg >= bound.min_dihedral_deg) continue;
+    bound.min_dihedral_deg = edge->min_dihedral_deg;
+    bound.min_dihedral_at = middle;
   }
-  for (std::uint32_t i = 0; i < surface.triangles.size(); ++i)
+  for (const Triangle& t : surface.triangles)
     for (std::size_t k = 0; k < 3; ++k) {
-      const Triangle& t = surface.triangles[i];
       const Vec3 u = p[t[(k + 1) % 3]] - p[t[k]], v = p[t[(k + 2) % 3]] - p[t[k]];
-      const double jacobian = std::numbers::sqrt2 * u.cross(v).norm() / (u.norm() * v.norm());
-      if (jacobian >= bound.scaled_jacobian) continue;
-      bound.scaled_jacobian = jacobian;
-      bound.worst_triangle = i;
-      bound.worst_triangle_centre = (p[t[0]] + p[t[1]] + p[t[2]]) / 3;
+      limit_jacobian(std::numbers::sqrt2 * u.cross(v).norm() / (u.norm() * v.norm()),
+                     (p[t[0]] + p[t[1]] + p[t[2]]) / 3);
     }
   return bound;
 }

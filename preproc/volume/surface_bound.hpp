@@ -8,21 +8,20 @@
 namespace scan2fea {
 
 // Upper bounds on the smallest dihedral angle and the smallest scaled Jacobian of tetrahedra whose boundary is the
-// surface, triangle by triangle, and where they come from. Necessary, not sufficient: two bad edges side by side can
-// ask for more than either.
+// surface, triangle by triangle, and where they come from. Necessary, not sufficient: bad edges side by side can ask
+// for more than each does alone.
 struct SurfaceBound {
-  double min_dihedral_deg = 70.53;    // the regular tetrahedron's
-  Vec3 sharpest_edge = Vec3::Zero();  // its middle
-  std::uint32_t sharpest_edge_triangle = 0;
+  double min_dihedral_deg = 70.528779365509308;  // the regular tetrahedron's
+  Vec3 min_dihedral_at = Vec3::Zero();           // the middle of an edge
   double scaled_jacobian = 1;
-  Vec3 worst_triangle_centre = Vec3::Zero();
-  std::uint32_t worst_triangle = 0;
+  Vec3 scaled_jacobian_at = Vec3::Zero();
 };
 
-// At a convex edge of interior dihedral angle theta either several elements share the angle, so that one has theta / 2
-// at most, or one element fills it, and then its four corners are those of the two triangles: the better of both bounds
-// the angle. At a corner of angle alpha, 6V is at most sin(alpha) times the product of the three edges there, so
-// sqrt(2) sin(alpha) bounds the scaled Jacobian. The surface is closed and manifold. O(n log n).
+// At a convex edge of interior dihedral angle theta either several elements share the angle, so that one of them has
+// theta / 2 at most, or one element fills it, and then its corners are those of the two triangles: the better of both
+// bounds the angle. The scaled Jacobian of an element with the dihedral angle phi at an edge is at most
+// sqrt(2) sin(phi) h / m, with h the height of a triangle there over the edge and m the longer of its other two sides;
+// and at a triangle's corner of angle alpha at most sqrt(2) sin(alpha). The surface is closed and manifold. O(n log n).
 SurfaceBound surface_bound(const SurfaceMesh& surface);
 
 }  // namespace scan2fea

@@ -56,10 +56,6 @@ double signed_root(double x) {
   return x < 0 ? -std::sqrt(-x) : std::sqrt(x);
 }
 
-double degrees(double cosine) {
-  return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi;
-}
-
 }  // namespace
 
 double goal_quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double floor) {
@@ -72,15 +68,6 @@ double goal_quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, 
   const double jacobian = s.jacobian / std::sqrt(s.largest_product);
   return std::min(jacobian * (std::numbers::sqrt2 / good_scaled_jacobian),
                   std::min(sine / sin_22_deg, (1 + signed_root(cosines.smallest)) / one_plus_cos_138_deg));
-}
-
-TetMeasures tet_measures(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  const Shape s = shape_of(a, b, c, d);
-  if (!(s.largest_product > 0)) return {0, 180, 0};
-  const double jacobian = s.jacobian * std::numbers::sqrt2 / std::sqrt(s.largest_product);
-  if (!(s.jacobian > 0)) return {0, 180, jacobian};
-  const SignedSquares cosines = squared_cosines(s);
-  return {degrees(signed_root(cosines.largest)), degrees(signed_root(cosines.smallest)), jacobian};
 }
 
 }  // namespace scan2fea

@@ -15,12 +15,4 @@ namespace scan2fea {
 // worse than what they would replace, and are found out early. Some 25 ns.
 double goal_quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double floor = 0);
 
-// What a solver's user reads: the three ingredients.
-struct TetMeasures {
-  double min_dihedral_deg;
-  double max_dihedral_deg;
-  double scaled_jacobian;
-};
-TetMeasures tet_measures(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
-
 }  // namespace scan2fea
