@@ -1,21 +1,22 @@
 #include "preproc/pipeline.hpp"
 
-#include <sys/resource.h>
+#include "preproc/mesh/error.hpp"
+#include "preproc/volume/mid_edge_nodes.hpp"
 
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <map>
-
-#include "preproc/mesh/error.hpp"
-#include "preproc/volume/mid_edge_nodes.hpp"
+#include <sys/resource.h>
 
 namespace scan2fea {
 namespace {
 
 // Linux keeps a high-water mark of resident memory that can be set back, which gives each stage its own peak.
-void restart_peak_memory() { std::ofstream("/proc/self/clear_refs") << 5; }
+void restart_peak_memory() {
+  std::ofstream("/proc/self/clear_refs") << 5;
+}
 
 std::uint64_t peak_memory_bytes() {
   std::ifstream status("/proc/self/status");
@@ -65,11 +66,22 @@ void describe(const RepairResult& result, StageRecord& record) {
   record.changes.emplace_back("faces_removed", static_cast<double>(result.faces_removed));
   record.changes.emplace_back("faces_added", static_cast<double>(result.faces_added));
   for (const RepairChange& change : result.changes) {
+    // A dropped vertex changes no surface; some scans have thousands.
+    if (change.kind == RepairKind::UnusedVertex) continue;
     char size[32];
     std::snprintf(size, sizeof size, "%.4g", change.size);
     record.remarks.push_back(std::string(name(change.kind)) + " at " + coordinates(change.place) +
                              (change.size > 0 ? ", size " + std::string(size) : ""));
   }
+}
+
+void describe(const EnrichResult& result, StageRecord& record) {
+  record.changes = {{"sampling_radius", result.sampling_radius},
+                    {"vertices_added", static_cast<double>(result.added)},
+                    {"not_lifted", static_cast<double>(result.not_lifted)},
+                    {"domain_vertices", static_cast<double>(result.domain_vertices)},
+                    {"content", static_cast<double>(result.content)},
+                    {"largest_height", result.largest_height}};
 }
 
 void describe(const SimplifyResult& result, StageRecord& record) {
@@ -102,10 +114,12 @@ PipelineResult run_pipeline(SurfaceMesh scan, const PipelineOptions& options, co
     log.run("repair", [&](StageRecord& record) { describe(repair(scan, *options.repair, progress), record); });
   result.scan = scan;
   result.surface = std::move(scan);
+  if (options.enrich)
+    log.run("enrich",
+            [&](StageRecord& record) { describe(enrich(result.surface, *options.enrich, progress), record); });
   if (options.simplify)
-    log.run("simplify", [&](StageRecord& record) {
-      describe(simplify(result.surface, *options.simplify, progress), record);
-    });
+    log.run("simplify",
+            [&](StageRecord& record) { describe(simplify(result.surface, *options.simplify, progress), record); });
   if (options.tetrahedralize) {
     log.run("tetrahedralize", [&](StageRecord& record) {
       TetrahedralizeResult filled = tetrahedralize(result.surface, *options.tetrahedralize, progress);

@@ -1,5 +1,13 @@
-// The whole chain from a scan to a mesh: repair, simplify, tetrahedralize, second order.
+// The whole chain from a scan to a mesh: repair, enrich, simplify, tetrahedralize, second order.
 #pragma once
+
+#include "preproc/mesh/progress.hpp"
+#include "preproc/mesh/surface_mesh.hpp"
+#include "preproc/mesh/tet_mesh.hpp"
+#include "preproc/surface/enrich.hpp"
+#include "preproc/surface/repair.hpp"
+#include "preproc/surface/simplify.hpp"
+#include "preproc/volume/tetrahedralize.hpp"
 
 #include <cstdint>
 #include <functional>
@@ -8,18 +16,12 @@
 #include <string>
 #include <vector>
 
-#include "preproc/mesh/progress.hpp"
-#include "preproc/mesh/surface_mesh.hpp"
-#include "preproc/mesh/tet_mesh.hpp"
-#include "preproc/surface/repair.hpp"
-#include "preproc/surface/simplify.hpp"
-#include "preproc/volume/tetrahedralize.hpp"
-
 namespace scan2fea {
 
 // A stage that is not asked for is left out; its input then goes on as it is.
 struct PipelineOptions {
   std::optional<RepairOptions> repair = RepairOptions{};
+  std::optional<EnrichOptions> enrich;  // not by default: a scan that is dense enough needs none
   std::optional<SimplifyOptions> simplify = SimplifyOptions{};
   std::optional<TetrahedralizeOptions> tetrahedralize = TetrahedralizeOptions{};
   int order = 1;  // 1: 4-node tetrahedra, 2: 10-node tetrahedra
@@ -29,7 +31,7 @@ struct PipelineOptions {
 struct StageRecord {
   std::string name;
   double seconds = 0;
-  std::uint64_t peak_bytes = 0;      // of the process while the stage ran; 0 where the system does not tell
+  std::uint64_t peak_bytes = 0;  // of the process while the stage ran; 0 where the system does not tell
   std::vector<std::pair<std::string, double>> changes;  // "holes_closed" -> 5, in the order they are shown
   std::vector<std::string> remarks;  // what a person should know: places of changes, a method that gave way
 };

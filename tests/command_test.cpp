@@ -1,22 +1,21 @@
 // The command's contract, seen from outside: exit codes, one-line errors, no output on failure, the same bytes always.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <nlohmann/json.hpp>
-
-#include <algorithm>
-#include <string>
-
 #include "preproc/mesh/read_surface.hpp"
 #include "preproc/mesh/write_surface.hpp"
 #include "tests/analytic_meshes.hpp"
 #include "tests/run_command.hpp"
 
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <string>
+
 namespace scan2fea {
 namespace {
 
-using ::testing::HasSubstr;
 using testing::file_content;
+using ::testing::HasSubstr;
 using testing::run_command;
 using testing::TemporaryFolder;
 using testing::write_file;
@@ -91,7 +90,9 @@ TEST_F(Command, DirectoryIsUnreadable) {
   expect_failure("folder.stl", 3);
 }
 
-TEST_F(Command, MissingFileIsUnreadable) { expect_failure("absent.ply", 3); }
+TEST_F(Command, MissingFileIsUnreadable) {
+  expect_failure("absent.ply", 3);
+}
 
 TEST_F(Command, SingleTriangleIsNotMeshable) {
   write_file(path("one.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
@@ -175,12 +176,18 @@ TEST_F(Command, BytesAreTheSameForAnyNumberOfThreads) {
 TEST_F(Command, ConfigurationGivesWhatFlagsLeaveOut) {
   write_file(path("part.toml"), "ratio = 0.9\nseed = 3\n\n[surface]\nfaces = 300\n");
   const std::string scan = scan_of_a_sphere();
-  ASSERT_EQ(run_command("surface '" + scan + "' -o '" + path("a.ply") + "' --config '" + path("part.toml") + "'").exit_code, 0);
+  ASSERT_EQ(
+      run_command("surface '" + scan + "' -o '" + path("a.ply") + "' --config '" + path("part.toml") + "'").exit_code,
+      0);
   EXPECT_NEAR(static_cast<double>(read_surface(path("a.ply")).triangles.size()), 300, 6);
-  ASSERT_EQ(run_command("surface '" + scan + "' -o '" + path("b.ply") + "' --faces 600 --config '" + path("part.toml") + "'").exit_code, 0);
+  ASSERT_EQ(
+      run_command("surface '" + scan + "' -o '" + path("b.ply") + "' --faces 600 --config '" + path("part.toml") + "'")
+          .exit_code,
+      0);
   EXPECT_NEAR(static_cast<double>(read_surface(path("b.ply")).triangles.size()), 600, 12);
   write_file(path("typo.toml"), "faecs = 300\n");
-  const auto result = run_command("surface '" + scan + "' -o '" + path("c.ply") + "' --config '" + path("typo.toml") + "'");
+  const auto result =
+      run_command("surface '" + scan + "' -o '" + path("c.ply") + "' --config '" + path("typo.toml") + "'");
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.standard_error, HasSubstr("typo.toml:1"));
 }
@@ -193,7 +200,31 @@ TEST_F(Command, ConvertKeepsTheMesh) {
   ASSERT_EQ(run_command("convert '" + path("part.vtu") + "' -o '" + path("part.msh") + "'").exit_code, 0);
   const auto report = nlohmann::json::parse(run_command("check '" + path("part.msh") + "' --json -").standard_output);
   EXPECT_EQ(report.at("volume_mesh").at("inverted").get<int>(), 0);
-  EXPECT_EQ(run_command("convert '" + scan + "' -o '" + path("sphere.inp") + "'").exit_code, 2) << "a surface is no volume mesh";
+  EXPECT_EQ(run_command("convert '" + scan + "' -o '" + path("sphere.inp") + "'").exit_code, 2)
+      << "a surface is no volume mesh";
+}
+
+TEST_F(Command, EnrichKeepsTheMeasuredPoints) {
+  const std::string scan = scan_of_a_sphere();
+  ASSERT_EQ(run_command("enrich '" + scan + "' -o '" + path("rich.ply") + "' --sampling-radius 1").exit_code, 0);
+  const SurfaceMesh before = read_surface(scan), after = read_surface(path("rich.ply"));
+  ASSERT_GT(after.vertices.size(), before.vertices.size());
+  for (std::size_t v = 0; v < before.vertices.size(); ++v) ASSERT_EQ(after.vertices[v], before.vertices[v]);
+  EXPECT_EQ(run_command("surface '" + scan + "' -o '" + path("s.ply") + "' --enrich --faces 500").exit_code, 0);
+}
+
+TEST_F(Command, ObjectivesBelongToCollapse) {
+  const std::string scan = scan_of_a_sphere();
+  for (const std::string objective :
+       {"shannon", "a-entropy", "regularised-a-entropy", "entropy-weighted", "mean-edge-ratio", "midpoint"})
+    EXPECT_EQ(
+        run_command("surface '" + scan + "' -o '" + path(objective + ".ply") + "' --faces 500 --objective " + objective)
+            .exit_code,
+        0);
+  EXPECT_EQ(
+      run_command("surface '" + scan + "' -o '" + path("x.ply") + "' --faces 500 --method lattice --objective shannon")
+          .exit_code,
+      2);
 }
 
 TEST_F(Command, CheckMeasuresAndGates) {

@@ -1,11 +1,10 @@
 #include "tests/run_command.hpp"
 
-#include <sys/wait.h>
-
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+#include <sys/wait.h>
 
 namespace scan2fea::testing {
 

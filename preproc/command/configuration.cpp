@@ -1,12 +1,12 @@
 #include "preproc/command/configuration.hpp"
 
+#include "preproc/mesh/error.hpp"
+
 #include <toml++/toml.h>
 
 #include <fstream>
 #include <sstream>
 #include <vector>
-
-#include "preproc/mesh/error.hpp"
 
 namespace scan2fea::command {
 namespace {
@@ -23,7 +23,10 @@ std::string as_flag_value(const toml::node& node, const std::string& where, cons
     out << toml::node_view<const toml::node>(&node);
     return out.str();
   }
-  throw WrongUsage({.what = "value of a kind no option takes", .where = where, .value = key, .limit = {},
+  throw WrongUsage({.what = "value of a kind no option takes",
+                    .where = where,
+                    .value = key,
+                    .limit = {},
                     .advice = "text, a number, true or false, or an array of these"});
 }
 
@@ -70,7 +73,10 @@ std::vector<Setting> settings_in(const toml::table& table, const CLI::App& root,
     if (option != nullptr && key != "config") {
       settings.push_back({option, values_of(node, place(file, node), key), place(file, node)});
     } else if (!known_to_any(root, key) || key == "config") {
-      throw WrongUsage({.what = "unknown option", .where = place(file, node), .value = key, .limit = {},
+      throw WrongUsage({.what = "unknown option",
+                        .where = place(file, node),
+                        .value = key,
+                        .limit = {},
                         .advice = "the names of `scan2fea " + command.get_name() + " --help`, without the dashes"});
     }
   }
@@ -85,8 +91,11 @@ void apply(const std::vector<Setting>& settings) {
     if (!given_or_excluded(*s.option)) chosen.push_back(&s);
   for (const Setting* s : chosen) {
     if (given_or_excluded(*s->option))
-      throw WrongUsage({.what = "excludes another option of the same file", .where = s->where,
-                        .value = s->option->get_name(), .limit = {}, .advice = "keep one of the two"});
+      throw WrongUsage({.what = "excludes another option of the same file",
+                        .where = s->where,
+                        .value = s->option->get_name(),
+                        .limit = {},
+                        .advice = "keep one of the two"});
     try {
       for (const std::string& value : s->values) s->option->add_result(value);
       s->option->run_callback();
@@ -101,20 +110,28 @@ void apply(const std::vector<Setting>& settings) {
 void apply_configuration(CLI::App& root, CLI::App& command, const std::filesystem::path& file) {
   std::ifstream in(file);
   if (!in || std::filesystem::is_directory(file))
-    throw InvalidInput({.what = "cannot read the configuration", .where = file.string(), .value = {}, .limit = {},
+    throw InvalidInput({.what = "cannot read the configuration",
+                        .where = file.string(),
+                        .value = {},
+                        .limit = {},
                         .advice = "a readable TOML file"});
   toml::table table;
   try {
     table = toml::parse(in, file.string());
   } catch (const toml::parse_error& e) {
     throw InvalidInput({.what = std::string(e.description()),
-                        .where = file.string() + ":" + std::to_string(e.source().begin.line), .value = {}, .limit = {},
+                        .where = file.string() + ":" + std::to_string(e.source().begin.line),
+                        .value = {},
+                        .limit = {},
                         .advice = "TOML syntax: name = value"});
   }
   for (const auto& [name, node] : table)
     if (node.is_table() && !is_sub_command(root, name.str()))
-      throw WrongUsage({.what = "table of no sub-command", .where = place(file, node),
-                        .value = std::string(name.str()), .limit = {}, .advice = "[run], [surface], [check], ..."});
+      throw WrongUsage({.what = "table of no sub-command",
+                        .where = place(file, node),
+                        .value = std::string(name.str()),
+                        .limit = {},
+                        .advice = "[run], [surface], [check], ..."});
   if (const toml::table* own = table[command.get_name()].as_table()) apply(settings_in(*own, root, command, file));
   apply(settings_in(table, root, command, file));
 }

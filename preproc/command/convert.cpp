@@ -23,12 +23,14 @@ int convert(const ConvertFlags& flags) {
   const bool volume_in = volume_format(flags.input).has_value();
   const bool volume_out = volume_format(flags.output.output).has_value();
   if (volume_out && !volume_in)
-    throw WrongUsage({.what = "a surface holds no tetrahedra to write", .where = flags.input.string(), .value = {},
-                      .limit = {}, .advice = "scan2fea tetrahedralize, or scan2fea run"});
+    throw WrongUsage({.what = "a surface holds no tetrahedra to write",
+                      .where = flags.input.string(),
+                      .value = {},
+                      .limit = {},
+                      .advice = "scan2fea tetrahedralize, or scan2fea run"});
   if (volume_in && volume_out) {
     const VolumeFileOptions options{.unit = flags.unit.value_or(""), .provenance = flags.input.filename().string()};
-    for (const std::string& warning :
-         write_volume(read_volume(flags.input), flags.output.output, options).warnings)
+    for (const std::string& warning : write_volume(read_volume(flags.input), flags.output.output, options).warnings)
       display.line("warning: " + warning);
   } else if (volume_in) {
     write_surface(boundary_surface(read_volume(flags.input)), flags.output.output);
@@ -43,7 +45,8 @@ int convert(const ConvertFlags& flags) {
 
 SubCommand add_convert(CLI::App& root) {
   const auto flags = std::make_shared<ConvertFlags>();
-  CLI::App* app = root.add_subcommand("convert", "Between all formats; a volume mesh into a surface gives its boundary");
+  CLI::App* app =
+      root.add_subcommand("convert", "Between all formats; a volume mesh into a surface gives its boundary");
   app->add_option("input", flags->input, "What to read")->required()->type_name("FILE");
   add_output_flag(*app, flags->output);
   app->add_option("--unit", flags->unit, "Length unit, recorded in what is written")

@@ -1,11 +1,11 @@
 #include "preproc/command/figures.hpp"
 
+#include "preproc/command/output_files.hpp"
+
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
 #include <iostream>
-
-#include "preproc/command/output_files.hpp"
 
 namespace scan2fea::command {
 namespace {

@@ -2,8 +2,9 @@
 
 #include <CLI/Validators.hpp>
 
+#include <algorithm>
 #include <cmath>
-#include <map>
+#include <utility>
 
 namespace scan2fea::command {
 namespace {
@@ -18,21 +19,33 @@ const CLI::Validator positive(
     },
     "NUMBER > 0");
 
-template <class Enum>
-CLI::Option* add_choice(CLI::App& command, const std::string& flag, Enum& value,
-                        const std::map<std::string, Enum>& choices, const std::string& text) {
+template <class Value>
+using Choices = std::vector<std::pair<std::string, Value>>;
+
+template <class Value, class Target = Value>
+CLI::Option* add_choice(CLI::App& command, const std::string& flag, Target& value, const Choices<Value>& choices,
+                        const std::string& text) {
   std::string list;
   for (const auto& choice : choices) list += (list.empty() ? "" : ", ") + choice.first;
   return command
       .add_option_function<std::string>(
           flag,
           [&value, choices, list, flag](const std::string& name) {
-            const auto found = choices.find(name);
+            const auto found =
+                std::find_if(choices.begin(), choices.end(), [&](const auto& c) { return c.first == name; });
             if (found == choices.end()) throw CLI::ValidationError(flag, "'" + name + "' is none of " + list);
             value = found->second;
           },
           text + " (" + list + ")")
       ->type_name("NAME");
+}
+
+// The values of an enumeration under the names that the library gives them.
+template <class Enum, std::size_t n>
+Choices<Enum> named(const Enum (&values)[n]) {
+  Choices<Enum> choices;
+  for (const Enum value : values) choices.emplace_back(std::string(name_of(value)), value);
+  return choices;
 }
 
 }  // namespace
@@ -64,7 +77,8 @@ void add_common_flags(CLI::App& command, CommonFlags& flags) {
       ->type_name("UNIT");
   command.add_option("--json", flags.json, "Write all figures as JSON (- for stdout)")->type_name("FILE");
   command.add_option("--report", flags.report, "Write the quality report into this folder")->type_name("DIR");
-  command.add_option("--require", flags.require, "Gate, e.g. \"edge_ratio.mean<=1.2\"; exit 1 where it fails (repeatable)")
+  command
+      .add_option("--require", flags.require, "Gate, e.g. \"edge_ratio.mean<=1.2\"; exit 1 where it fails (repeatable)")
       ->type_name("GATE")
       ->allow_extra_args(false);
   command.add_option("--threads", flags.threads, "Number of threads; 0 for all. The result does not depend on it")
@@ -123,10 +137,59 @@ void add_repair_flags(CLI::App& command, RepairOptions& options) {
       ->type_name("P%");
 }
 
+void add_enrich_flags(CLI::App& command, EnrichOptions& options) {
+  command
+      .add_option("--sampling-radius", options.sampling_radius,
+                  "R_s, the spacing that the points should have, model units; by default the scan's own, evened out")
+      ->check(positive)
+      ->type_name("R");
+  add_choice<Lifting>(
+      command, "--lifting", options.lifting,
+      named({Lifting::hermite, Lifting::moving_least_squares, Lifting::modified_quadratic_shepard, Lifting::shepard}),
+      "How new points find their height");
+  command
+      .add_option_function<std::vector<double>>(
+          "--enrich-ball",
+          [&options](const std::vector<double>& v) {
+            options.domain = Ball{.centre = {v[0], v[1], v[2]}, .radius = v[3]};
+          },
+          "Enrich within this ball only")
+      ->expected(4)
+      ->type_name("X Y Z R");
+  command
+      .add_option_function<std::vector<double>>(
+          "--enrich-box",
+          [&options](const std::vector<double>& v) {
+            options.domain = BoundingBox{.low = {v[0], v[1], v[2]}, .high = {v[3], v[4], v[5]}};
+          },
+          "Enrich within this box only")
+      ->expected(6)
+      ->type_name("X Y Z X Y Z");
+}
+
 void add_simplify_flags(CLI::App& command, SimplifyOptions& options) {
-  add_choice<SimplifyMethod>(command, "--method", options.method,
-                             {{"collapse", SimplifyMethod::collapse}, {"lattice", SimplifyMethod::lattice}},
-                             "How to simplify; lattice is the default");
+  CLI::Option* method =
+      add_choice<SimplifyMethod>(command, "--method", options.method,
+                                 {{"lattice", SimplifyMethod::lattice}, {"collapse", SimplifyMethod::collapse}},
+                                 "How to simplify; lattice is the default");
+  Choices<std::optional<StarObjective>> objectives;
+  for (const auto& [name, objective] :
+       named({StarObjective::entropy_weighted, StarObjective::shannon, StarObjective::a_entropy,
+              StarObjective::regularised_a_entropy, StarObjective::mean_edge_ratio}))
+    objectives.emplace_back(name, objective);
+  objectives.emplace_back("midpoint", std::nullopt);
+  CLI::Option* objective = add_choice(command, "--objective", options.collapse.objective, objectives,
+                                      "Where collapse puts the kept vertex: by a star objective, or the midpoint");
+  CLI::Option* cost =
+      add_choice(command, "--cost", options.collapse.cost,
+                 named({CollapseCost::bending_energy, CollapseCost::quadric_error, CollapseCost::edge_length}),
+                 "Which edge collapse contracts next");
+  for (CLI::Option* needs_collapse : {objective, cost})
+    needs_collapse->each([&options, method, needs_collapse](const std::string&) {
+      if (method->count() > 0 && options.method != SimplifyMethod::collapse)
+        throw CLI::ValidationError(needs_collapse->get_name(), "belongs to --method collapse");
+      options.method = SimplifyMethod::collapse;
+    });
   add_choice<Sizing>(command, "--sizing", options.sizing,
                      {{"uniform", Sizing::uniform}, {"curvature", Sizing::curvature}, {"error", Sizing::error}},
                      "Where triangles are small; curvature is the default");
@@ -149,15 +212,15 @@ void add_tetrahedralize_flags(CLI::App& command, TetrahedralizeOptions& options,
           "--interior-size",
           [&options](const std::string& text) {
             const RelativeLength length = parse_length(text, 'x');
-            options.interior_size = {.value = length.value, .unit = length.relative ? InteriorSize::Unit::of_surface
-                                                                                    : InteriorSize::Unit::model};
+            options.interior_size = {
+                .value = length.value,
+                .unit = length.relative ? InteriorSize::Unit::of_surface : InteriorSize::Unit::model};
           },
           "Edge length inside, model units or times the surface's (1.6x, the default)")
       ->type_name("L");
   command
       .add_option_function<double>(
-          "--time-limit",
-          [&options](double seconds) { options.time_limit = std::chrono::duration<double>(seconds); },
+          "--time-limit", [&options](double seconds) { options.time_limit = std::chrono::duration<double>(seconds); },
           "Of the volume stage, seconds; what is left after TetGen is spent on better tetrahedra")
       ->check(positive)
       ->type_name("S");

@@ -1,5 +1,8 @@
-// The flags that sub-commands share. Each `add_...` declares one group of them on a sub-command and binds it to a field.
+// The flags that sub-commands share. Each `add_...` declares one group of them on a sub-command and binds it to a
+// field.
 #pragma once
+
+#include "preproc/pipeline.hpp"
 
 #include <CLI/App.hpp>
 
@@ -8,8 +11,6 @@
 #include <optional>
 #include <string>
 #include <vector>
-
-#include "preproc/pipeline.hpp"
 
 namespace scan2fea::command {
 
@@ -55,6 +56,7 @@ void add_common_flags(CLI::App& command, CommonFlags& flags);
 void add_output_flag(CLI::App& command, OutputFlag& flag);
 void add_size_flags(CLI::App& command, SizeFlags& flags);
 void add_repair_flags(CLI::App& command, RepairOptions& options);
+void add_enrich_flags(CLI::App& command, EnrichOptions& options);
 void add_simplify_flags(CLI::App& command, SimplifyOptions& options);
 void add_tetrahedralize_flags(CLI::App& command, TetrahedralizeOptions& options, int& order);
 

@@ -1,6 +1,10 @@
 // scan2fea: from a scanned surface to a finite-element mesh.
-#include <CLI/CLI.hpp>
+#include "preproc/command/configuration.hpp"
+#include "preproc/command/progress_display.hpp"
+#include "preproc/command/sub_commands.hpp"
+#include "preproc/mesh/error.hpp"
 
+#include <CLI/CLI.hpp>
 #include <tbb/global_control.h>
 
 #include <cstdio>
@@ -8,11 +12,6 @@
 #include <new>
 #include <optional>
 #include <vector>
-
-#include "preproc/command/configuration.hpp"
-#include "preproc/command/progress_display.hpp"
-#include "preproc/command/sub_commands.hpp"
-#include "preproc/mesh/error.hpp"
 
 namespace scan2fea::command {
 namespace {
@@ -24,11 +23,12 @@ int run_command(int argc, char** argv) {
   CLI::App root("From a scanned surface to a mesh that a finite-element solver accepts.", "scan2fea");
   root.set_version_flag("--version", SCAN2FEA_VERSION);
   root.require_subcommand(1);
-  root.footer("Exit codes: 0 done, 1 a gate failed, 2 wrong usage, 3 input unreadable, 4 no valid mesh can be made,\n"
-              "5 the tetrahedral mesher failed, 6 output cannot be written, 130 interrupted.");
-  const std::vector<SubCommand> commands{add_run(root),      add_surface(root),  add_repair(root),
-                                         add_simplify(root), add_tetrahedralize(root),
-                                         add_check(root),    add_convert(root)};
+  root.footer(
+      "Exit codes: 0 done, 1 a gate failed, 2 wrong usage, 3 input unreadable, 4 no valid mesh can be made,\n"
+      "5 the tetrahedral mesher failed, 6 output cannot be written, 130 interrupted.");
+  const std::vector<SubCommand> commands{add_run(root),    add_surface(root),  add_repair(root),
+                                         add_enrich(root), add_simplify(root), add_tetrahedralize(root),
+                                         add_check(root),  add_convert(root)};
   try {
     root.parse(argc, argv);
   } catch (const CLI::Success& e) {
@@ -41,13 +41,11 @@ int run_command(int argc, char** argv) {
   for (const SubCommand& command : commands) {
     if (!command.app->parsed()) continue;
     const CLI::Option* config = command.app->get_option_no_throw("--config");
-    if (config != nullptr && config->count() > 0)
-      apply_configuration(root, *command.app, config->as<std::string>());
+    if (config != nullptr && config->count() > 0) apply_configuration(root, *command.app, config->as<std::string>());
     const CLI::Option* threads = command.app->get_option_no_throw("--threads");
     const int count = threads != nullptr && threads->count() > 0 ? threads->as<int>() : 0;
     std::optional<tbb::global_control> limit;
-    if (count > 0)
-      limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(count));
+    if (count > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(count));
     return command.execute();
   }
   return wrong_usage;

@@ -36,13 +36,20 @@ void require_known_format(const MakeMeshJob& job) {
   const std::filesystem::path& output = job.output.output;
   const bool known = job.pipeline.tetrahedralize ? volume_format(output).has_value() : is_surface_file(output);
   if (!known)
-    throw WrongUsage({.what = "unknown format of the output", .where = output.string(),
-                      .value = output.extension().string(), .limit = {},
-                      .advice = std::string(job.pipeline.tetrahedralize ? known_volume_formats()
-                                                                        : known_surface_formats())});
+    throw WrongUsage(
+        {.what = "unknown format of the output",
+         .where = output.string(),
+         .value = output.extension().string(),
+         .limit = {},
+         .advice = std::string(job.pipeline.tetrahedralize ? known_volume_formats() : known_surface_formats())});
 }
 
 }  // namespace
+
+void add_optional_enrich_flags(CLI::App& command, MakeMeshJob& job) {
+  command.add_flag("--enrich", job.enrich, "First add points where the scanner left too few (see scan2fea enrich)");
+  add_enrich_flags(command, job.enrich_options);
+}
 
 int make_mesh(MakeMeshJob job) {
   require_known_format(job);
@@ -53,6 +60,7 @@ int make_mesh(MakeMeshJob job) {
   SurfaceMesh scan = read_surface(job.common.input);
   display.line(describe_input(scan, job.common));
   if (job.pipeline.simplify) job.pipeline.simplify->size = job.size.resolve(bounding_box(scan.vertices));
+  if (job.enrich) job.pipeline.enrich = job.enrich_options;
   const PipelineResult result = run_naming_input(std::move(scan), job, display);
 
   const bool figures_wanted = !job.common.quiet || job.common.json || job.common.report || !gates.empty();

@@ -10,7 +10,12 @@ struct MakeMeshJob {
   OutputFlag output;
   SizeFlags size;
   PipelineOptions pipeline;
+  bool enrich = false;  // --enrich of the commands in which that stage is a choice
+  EnrichOptions enrich_options;
 };
+
+// --enrich and the flags of that stage, for commands in which it is a choice.
+void add_optional_enrich_flags(CLI::App& command, MakeMeshJob& job);
 
 // Returns the command's exit status: 0, or 1 if a gate failed, and then nothing is written but the report.
 int make_mesh(MakeMeshJob job);

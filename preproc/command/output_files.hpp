@@ -8,8 +8,8 @@
 
 namespace scan2fea::command {
 
-// Throws IoError, before any work is done, where `file` exists and `force` is off, is a folder, or lies in a folder that
-// does not exist.
+// Throws IoError, before any work is done, where `file` exists and `force` is off, is a folder, or lies in a folder
+// that does not exist.
 void require_writable(const std::filesystem::path& file, bool force);
 
 // To the file, or to stdout where it is "-". Existing JSON is replaced: it is a report, not somebody's work.

@@ -1,12 +1,11 @@
 #include "preproc/command/progress_display.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <unistd.h>
 
 namespace scan2fea::command {
 namespace {
@@ -14,7 +13,9 @@ namespace {
 std::atomic<bool> interrupted{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch lock-free atomics only");
 
-void on_interrupt(int) { interrupted = true; }
+void on_interrupt(int) {
+  interrupted = true;
+}
 
 }  // namespace
 
@@ -27,10 +28,13 @@ void catch_interrupts() {
 }
 
 ProgressDisplay::ProgressDisplay(bool quiet)
-    : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0 && std::getenv("TERM") != nullptr &&
-                               std::strcmp(std::getenv("TERM"), "dumb") != 0) {}
+    : quiet_(quiet),
+      terminal_(isatty(STDERR_FILENO) != 0 && std::getenv("TERM") != nullptr &&
+                std::strcmp(std::getenv("TERM"), "dumb") != 0) {}
 
-ProgressDisplay::~ProgressDisplay() { clear(); }
+ProgressDisplay::~ProgressDisplay() {
+  clear();
+}
 
 Progress ProgressDisplay::progress() {
   return Progress([this](std::string_view stage, double fraction) { return update(stage, fraction); });

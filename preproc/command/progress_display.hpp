@@ -1,10 +1,10 @@
 // What a person sees while the command works: a bar on a terminal, plain lines elsewhere, nothing when quiet.
 #pragma once
 
+#include "preproc/mesh/progress.hpp"
+
 #include <chrono>
 #include <string>
-
-#include "preproc/mesh/progress.hpp"
 
 namespace scan2fea::command {
 

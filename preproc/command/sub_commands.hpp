@@ -15,6 +15,7 @@ struct SubCommand {
 SubCommand add_run(CLI::App& root);
 SubCommand add_surface(CLI::App& root);
 SubCommand add_repair(CLI::App& root);
+SubCommand add_enrich(CLI::App& root);
 SubCommand add_simplify(CLI::App& root);
 SubCommand add_tetrahedralize(CLI::App& root);
 SubCommand add_check(CLI::App& root);

@@ -11,6 +11,7 @@ SubCommand add_surface(CLI::App& root) {
   add_output_flag(*app, job->output);
   add_size_flags(*app, job->size);
   add_repair_flags(*app, *job->pipeline.repair);
+  add_optional_enrich_flags(*app, *job);
   add_simplify_flags(*app, *job->pipeline.simplify);
   return {app, [job] { return make_mesh(*job); }};
 }

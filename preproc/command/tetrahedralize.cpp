@@ -5,9 +5,10 @@ namespace scan2fea::command {
 
 SubCommand add_tetrahedralize(CLI::App& root) {
   const auto job = std::make_shared<MakeMeshJob>();
-  job->pipeline = {.repair = {}, .simplify = {}, .tetrahedralize = {}, .order = 1};
+  job->pipeline = {.repair = {}, .enrich = {}, .simplify = {}, .tetrahedralize = {}, .order = 1};
   job->pipeline.tetrahedralize.emplace();
-  CLI::App* app = root.add_subcommand("tetrahedralize", "One stage: fill a closed surface with tetrahedra, its triangles kept");
+  CLI::App* app =
+      root.add_subcommand("tetrahedralize", "One stage: fill a closed surface with tetrahedra, its triangles kept");
   add_common_flags(*app, job->common);
   add_output_flag(*app, job->output);
   add_tetrahedralize_flags(*app, *job->pipeline.tetrahedralize, job->pipeline.order);

@@ -1,9 +1,5 @@
 #include "preproc/surface/simplify.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <optional>
-
 #include "preproc/mesh/error.hpp"
 #include "preproc/surface/guard.hpp"
 #include "preproc/surface/lattice.hpp"
@@ -12,6 +8,10 @@
 #include "preproc/surface/shape_fit.hpp"
 #include "quality/deviation.hpp"
 #include "quality/validity.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
 
 namespace scan2fea {
 namespace {
@@ -30,9 +30,12 @@ struct FitPlan {
 
 FitPlan plan_of(Effort effort) {
   switch (effort) {
-    case Effort::low: return {.first_rounds = 2, .rounds = 4, .both_sides = false, .lift_tail_of_diagonal = {}};
-    case Effort::normal: return {.first_rounds = 2, .rounds = 8, .both_sides = false, .lift_tail_of_diagonal = {}};
-    case Effort::high: return {.first_rounds = 2, .rounds = 12, .both_sides = true, .lift_tail_of_diagonal = 0.001};
+    case Effort::low:
+      return {.first_rounds = 2, .rounds = 4, .both_sides = false, .lift_tail_of_diagonal = {}};
+    case Effort::normal:
+      return {.first_rounds = 2, .rounds = 8, .both_sides = false, .lift_tail_of_diagonal = {}};
+    case Effort::high:
+      return {.first_rounds = 2, .rounds = 12, .both_sides = true, .lift_tail_of_diagonal = 0.001};
   }
   return {};
 }
@@ -134,8 +137,10 @@ SurfaceMesh make_surface(const ReferenceSurface& scan, double faces, const Simpl
     candidate = by_relaxation(scan, faces, options, progress);
   }
   if (!candidate.failure.empty())
-    throw NotMeshable({.what = "no valid surface of this size: " + candidate.failure, .where = {},
-                       .value = std::to_string(std::lround(faces)) + " triangles", .limit = {},
+    throw NotMeshable({.what = "no valid surface of this size: " + candidate.failure,
+                       .where = {},
+                       .value = std::to_string(std::lround(faces)) + " triangles",
+                       .limit = {},
                        .advice = "more triangles (--faces, or a smaller --edge-length or --deviation)"});
   result.crossings_mended = candidate.crossings_mended;
   result.faces_after = candidate.mesh.triangles.size();
@@ -174,10 +179,12 @@ SurfaceMesh make_surface_within(const ReferenceSurface& scan, double distance, c
     faces = std::max(next, 100.0);
   }
   if (!best)
-    throw NotMeshable({.what = "the deviation was not reached", .where = {},
+    throw NotMeshable({.what = "the deviation was not reached",
+                       .where = {},
                        .value = std::to_string(result.largest_deviation) + " with " +
                                 std::to_string(result.faces_after) + " triangles",
-                       .limit = std::to_string(distance), .advice = "a larger --deviation"});
+                       .limit = std::to_string(distance),
+                       .advice = "a larger --deviation"});
   result = best_result;
   return std::move(*best);
 }
@@ -192,8 +199,11 @@ double wanted_faces(const TargetSize& size, const ReferenceSurface& scan) {
 
 void require_positive(double value, const char* what) {
   if (!(value > 0) || !std::isfinite(value))
-    throw WrongUsage({.what = std::string(what) + " must be above 0", .where = {}, .value = std::to_string(value),
-                      .limit = {}, .advice = {}});
+    throw WrongUsage({.what = std::string(what) + " must be above 0",
+                      .where = {},
+                      .value = std::to_string(value),
+                      .limit = {},
+                      .advice = {}});
 }
 
 }  // namespace

@@ -3,15 +3,15 @@
 // of entropy and fit.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <string>
-#include <variant>
-
 #include "preproc/mesh/progress.hpp"
 #include "preproc/mesh/surface_mesh.hpp"
 #include "preproc/surface/collapse.hpp"
 #include "preproc/surface/sizing_field.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <variant>
 
 namespace scan2fea {
 
@@ -43,7 +43,7 @@ struct SimplifyOptions {
   TargetSize size = FaceRatio{0.13};
   Effort effort = Effort::normal;
   Sizing sizing = Sizing::curvature;
-  double gradation = 0.12;  // largest |grad h| of the edge length h, 0.02 to 1; smaller is smoother
+  double gradation = 0.12;   // largest |grad h| of the edge length h, 0.02 to 1; smaller is smoother
   CollapseOptions collapse;  // objective, placement and cost of the `collapse` method; its face count is set by `size`
 };
 

@@ -1,11 +1,11 @@
+#include "tests/benchmark/peers.hpp"
+
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/IO/polygon_mesh_io.h>
 #include <CGAL/Polygon_mesh_processing/remesh.h>
 #include <CGAL/Surface_mesh.h>
 
 #include <stdexcept>
-
-#include "tests/benchmark/peers.hpp"
 
 namespace scan2fea::benchmark {
 

@@ -1,3 +1,5 @@
+#include "tests/benchmark/peers.hpp"
+
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/IO/polygon_mesh_io.h>
 #include <CGAL/Surface_mesh.h>
@@ -7,8 +9,6 @@
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 
 #include <stdexcept>
-
-#include "tests/benchmark/peers.hpp"
 
 namespace scan2fea::benchmark {
 namespace {
@@ -30,7 +30,9 @@ void write(const PeerJob& job, Mesh& mesh) {
 }
 
 // A closed surface has three edges for two faces.
-sms::Count_stop_predicate<Mesh> stop_at(const PeerJob& job) { return {job.faces * 3 / 2}; }
+sms::Count_stop_predicate<Mesh> stop_at(const PeerJob& job) {
+  return {job.faces * 3 / 2};
+}
 
 }  // namespace
 
@@ -38,10 +40,9 @@ void cgal_garland_heckbert(const PeerJob& job) {
   Mesh mesh = read(job);
   sms::GarlandHeckbert_policies<Mesh, Kernel> policies(mesh);
   const sms::Bounded_normal_change_filter<> keep_orientation;
-  sms::edge_collapse(mesh, stop_at(job),
-                     CGAL::parameters::get_cost(policies.get_cost())
-                         .get_placement(policies.get_placement())
-                         .filter(keep_orientation));
+  sms::edge_collapse(
+      mesh, stop_at(job),
+      CGAL::parameters::get_cost(policies.get_cost()).get_placement(policies.get_placement()).filter(keep_orientation));
   write(job, mesh);
 }
 

@@ -1,10 +1,9 @@
-#include <meshoptimizer.h>
-
-#include <vector>
-
 #include "preproc/mesh/read_surface.hpp"
 #include "preproc/mesh/write_surface.hpp"
 #include "tests/benchmark/peers.hpp"
+
+#include <meshoptimizer.h>
+#include <vector>
 
 namespace scan2fea::benchmark {
 

@@ -1,4 +1,6 @@
 #define _USE_MATH_DEFINES
+#include "tests/benchmark/peers.hpp"
+
 #include <OpenMesh/Core/IO/MeshIO.hh>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Tools/Decimater/DecimaterT.hh>
@@ -6,10 +8,7 @@
 #include <OpenMesh/Tools/Decimater/ModNormalFlippingT.hh>
 #include <OpenMesh/Tools/Decimater/ModProgMeshT.hh>
 #include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
-
 #include <stdexcept>
-
-#include "tests/benchmark/peers.hpp"
 
 namespace scan2fea::benchmark {
 namespace {

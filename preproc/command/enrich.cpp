@@ -1,0 +1,17 @@
+#include "preproc/command/make_mesh.hpp"
+#include "preproc/command/sub_commands.hpp"
+
+namespace scan2fea::command {
+
+SubCommand add_enrich(CLI::App& root) {
+  const auto job = std::make_shared<MakeMeshJob>();
+  job->pipeline = {.repair = {}, .enrich = {}, .simplify = {}, .tetrahedralize = {}, .order = 1};
+  job->pipeline.enrich.emplace();
+  CLI::App* app = root.add_subcommand("enrich", "One stage: add points where the scanner left too few");
+  add_common_flags(*app, job->common);
+  add_output_flag(*app, job->output);
+  add_enrich_flags(*app, *job->pipeline.enrich);
+  return {app, [job] { return make_mesh(*job); }};
+}
+
+}  // namespace scan2fea::command
