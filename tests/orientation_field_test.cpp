@@ -94,7 +94,7 @@ TEST(OrientationField, SphereHasTwelveSingularitiesOfValenceFive) {
   const RefinedScan scan = refine_scan(sphere, {.edge_length = std::vector<double>(sphere.vertices.size(), 0.2)}, 0.7);
   const FieldGraph graph = build_field_graph(scan);
   int five = 0;
-  for (const int index : indices(scan, graph.levels.front(), compute_orientation_field(graph).directions.front())) {
+  for (const int index : indices(scan, graph.levels.front(), compute_orientation_field(graph).directions)) {
     EXPECT_GE(index, 0);
     five += index;
   }
@@ -118,7 +118,7 @@ class ConformalTorus : public ::testing::Test {
 
 TEST_F(ConformalTorus, OrientationHasNoSingularities) {
   const OrientationField field = compute_orientation_field(graph);
-  for (const int index : indices(scan, graph.levels.front(), field.directions.front())) EXPECT_EQ(index, 0);
+  for (const int index : indices(scan, graph.levels.front(), field.directions)) EXPECT_EQ(index, 0);
 }
 
 TEST_F(ConformalTorus, RelaxationKeepsTheLengths) {

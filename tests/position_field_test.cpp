@@ -62,6 +62,9 @@ TEST(LatticeStep, TheWayBackIsTheInverse) {
     const LatticeCoordinates q = carried(lattice_step(b, a), carried(lattice_step(a, b), p));
     EXPECT_NEAR(q[0], p[0], 1e-4);
     EXPECT_NEAR(q[1], p[1], 1e-4);
+    EXPECT_EQ(inverse(lattice_step(a, b)).turns, lattice_step(b, a).turns);
+    EXPECT_NEAR(inverse(lattice_step(a, b)).shift[0], lattice_step(b, a).shift[0], 1e-4);
+    EXPECT_NEAR(inverse(lattice_step(a, b)).shift[1], lattice_step(b, a).shift[1], 1e-4);
   }
 }
 

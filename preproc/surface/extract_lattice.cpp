@@ -117,21 +117,16 @@ class Clusters {
 };
 
 // Edges whose ends share a lattice point, by ascending disagreement about where it is (to 1/256 of an edge length).
-std::vector<Join> joins_by_residual(const GraphLevel& graph, const std::vector<Complex>& directions,
-                                    const PositionField& position) {
+std::vector<Join> joins_by_residual(const GraphLevel& graph, const PositionField& position) {
   constexpr std::size_t buckets = 256;
   constexpr std::uint16_t no_join = buckets;
   std::vector<std::uint16_t> residual(graph.neighbours.size(), no_join);
-  const auto node = [&](std::size_t i) {
-    return LatticeNode(graph.positions[i], graph.normals[i], directions[i], std::exp(graph.log_length[i]));
-  };
   for_each_block(graph.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
-      const LatticeNode here = node(i);
       for (std::uint32_t e = graph.first[i]; e < graph.first[i + 1]; ++e) {
         const std::uint32_t j = graph.neighbours[e];
         if (j > i) continue;
-        const LatticeCoordinates predicted = carried(lattice_step(node(j), here), position.offsets[j]);
+        const LatticeCoordinates predicted = carried(position.steps[e], position.offsets[j]);
         const LatticeCoordinates change{predicted[0] - position.offsets[i][0], predicted[1] - position.offsets[i][1]};
         const LatticeCoordinates image = nearest_lattice_point(change);
         if (image[0] == 0 && image[1] == 0)
@@ -309,7 +304,7 @@ ExtractedLattice contract(const SurfaceMesh& scan, Clusters& clusters) {
 
 Clusters clusters_of(const GraphLevel& graph, const std::vector<Complex>& directions, const PositionField& position) {
   Clusters clusters(graph, directions, position);
-  for (const Join& join : joins_by_residual(graph, directions, position)) clusters.join_if_near(join);
+  for (const Join& join : joins_by_residual(graph, position)) clusters.join_if_near(join);
   dissolve_small(clusters, graph.size());
   return clusters;
 }
@@ -318,7 +313,7 @@ Clusters clusters_of(const GraphLevel& graph, const std::vector<Complex>& direct
 
 ExtractedLattice extract_lattice(const RefinedScan& scan, const GraphLevel& graph, const OrientationField& orientation,
                                  const PositionField& position) {
-  const std::vector<Complex>& directions = orientation.directions.front();
+  const std::vector<Complex>& directions = orientation.directions;
   ExtractedLattice result;
   Clusters clusters = clusters_of(graph, directions, position);
   if (merge_into_manifold(scan.mesh, clusters, result)) return result;

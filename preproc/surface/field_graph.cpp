@@ -64,9 +64,7 @@ void connect(const SurfaceMesh& mesh, GraphLevel& level) {
   for_each_block(n, [&](std::size_t first, std::size_t last) {
     for (std::size_t v = first; v < last; ++v)
       for (std::uint32_t i = level.first[v]; i < level.first[v + 1]; ++i) {
-        const std::uint32_t w = level.neighbours[i];
-        std::uint32_t mate = level.first[w];
-        while (level.neighbours[mate] != v) ++mate;
+        const std::uint32_t mate = level.mate(static_cast<std::uint32_t>(v), i);
         // Obtuse pairs have negative weights, which would push neighbours apart.
         level.weights[i] = std::clamp(own[i] + own[mate], 0.05F, 5.0F);
       }

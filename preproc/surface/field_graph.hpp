@@ -24,6 +24,13 @@ struct GraphLevel {
   std::vector<std::uint32_t> parent;  // the node of the next coarser level; empty on the coarsest
 
   std::size_t size() const { return positions.size(); }
+
+  // The same edge from its other end: of edge e of node i. A search, since degrees are about six.
+  std::uint32_t mate(std::uint32_t i, std::uint32_t e) const {
+    std::uint32_t m = first[neighbours[e]];
+    while (neighbours[m] != i) ++m;
+    return m;
+  }
 };
 
 struct FieldGraph {

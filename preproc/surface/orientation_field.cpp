@@ -10,11 +10,6 @@ namespace {
 using SmallComplex =
     std::complex<float>;  // two per edge: half the memory traffic of a sweep, and enough for a direction
 
-Complex unit(const Complex& z) {
-  const double length = std::abs(z);
-  return length > 0 ? z / length : Complex(1, 0);
-}
-
 Complex sixth_power(const Complex& z) {
   const Complex square = z * z;
   return square * square * square;
@@ -29,6 +24,7 @@ std::vector<SmallComplex> transports(const GraphLevel& level) {
       const TangentFrame here(level.normals[i]);
       for (std::uint32_t e = level.first[i]; e < level.first[i + 1]; ++e) {
         const std::uint32_t j = level.neighbours[e];
+        if (j > i) continue;  // done from there
         const TangentFrame there(level.normals[j]);
         const Complex carried = transport(there, here);
         const Vec3 step = level.positions[i] - level.positions[j];
@@ -38,6 +34,7 @@ std::vector<SmallComplex> transports(const GraphLevel& level) {
         const double turn =
             0.5 * (a.real() * s.imag() - a.imag() * s.real() + b.real() * t.imag() - b.imag() * t.real());
         result[e] = SmallComplex(sixth_power(unit(carried * Complex(1, turn))));
+        result[level.mate(static_cast<std::uint32_t>(i), e)] = std::conj(result[e]);
       }
     }
   });
@@ -54,8 +51,9 @@ Complex arbitrary_direction(std::size_t node) {
 
 // Gauss-Seidel inside fixed blocks, the values of other blocks taken from before the sweep: the same for any number of
 // threads, and nearly as fast to converge, since blocks are contiguous in space.
-void sweep(const GraphLevel& level, const std::vector<SmallComplex>& carried, std::vector<Complex>& z) {
-  const std::vector<Complex> before = z;
+void sweep(const GraphLevel& level, const std::vector<SmallComplex>& carried, std::vector<Complex>& before,
+           std::vector<Complex>& z) {
+  before = z;
   for_each_block(level.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       Complex sum = 0;
@@ -64,8 +62,7 @@ void sweep(const GraphLevel& level, const std::vector<SmallComplex>& carried, st
         const Complex& other = j >= first && j < last ? z[j] : before[j];
         sum += static_cast<double>(level.weights[e]) * Complex(carried[e]) * other;
       }
-      const double length = std::abs(sum);
-      if (length > 1e-9) z[i] = sum / length;
+      if (std::norm(sum) > 1e-18) z[i] = unit(sum);
     }
   });
 }
@@ -125,33 +122,30 @@ std::vector<Complex> log_length_gradient(const GraphLevel& level) {
 }
 
 OrientationField compute_orientation_field(const FieldGraph& graph, const OrientationOptions& options) {
-  OrientationField field;
-  field.directions.resize(graph.levels.size());
+  std::vector<Complex> above, z, before;  // e^{6 i theta} of the coarser level and of this one
   for (std::size_t l = graph.levels.size(); l-- > 0;) {
     const GraphLevel& level = graph.levels[l];
-    std::vector<Complex>& z = field.directions[l];  // e^{6 i theta} until the end
-    z.resize(level.size());
     const std::vector<SmallComplex> carried = transports(level);
+    z.resize(level.size());
     if (l + 1 == graph.levels.size()) {
       // It starts from nothing and costs nothing.
       solve_coarsest(level, carried, 20 * options.sweeps, z);
-      continue;
+    } else {
+      const GraphLevel& coarse = graph.levels[l + 1];
+      for_each_block(level.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+          const std::uint32_t p = level.parent[i];
+          z[i] = sixth_power(transport(TangentFrame(coarse.normals[p]), TangentFrame(level.normals[i]))) * above[p];
+        }
+      });
+      for (int s = 0; s < options.sweeps; ++s) sweep(level, carried, before, z);
     }
-    const GraphLevel& coarse = graph.levels[l + 1];
-    const std::vector<Complex>& above = field.directions[l + 1];
-    for_each_block(level.size(), [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) {
-        const std::uint32_t p = level.parent[i];
-        z[i] = sixth_power(transport(TangentFrame(coarse.normals[p]), TangentFrame(level.normals[i]))) * above[p];
-      }
-    });
-    for (int s = 0; s < options.sweeps; ++s) sweep(level, carried, z);
+    above.swap(z);
   }
-  for (std::vector<Complex>& level : field.directions)
-    for_each_block(level.size(), [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) level[i] = std::polar(1.0, std::arg(level[i]) / 6);
-    });
-  return field;
+  for_each_block(above.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) above[i] = std::polar(1.0, std::arg(above[i]) / 6);
+  });
+  return {std::move(above)};
 }
 
 }  // namespace scan2fea

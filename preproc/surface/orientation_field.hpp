@@ -14,10 +14,10 @@ struct OrientationOptions {
   int sweeps = 6;  // of Gauss-Seidel on each level, 1 or more
 };
 
-// Per level of the graph and node, a unit complex number e^{i theta} in the TangentFrame of the node's normal; theta is
+// Per node of the finest level, a unit complex number e^{i theta} in the TangentFrame of the node's normal; theta is
 // one of six directions that are equivalent.
 struct OrientationField {
-  std::vector<std::vector<Complex>> directions;
+  std::vector<Complex> directions;
 };
 
 // Makes e^{6 i theta} as smooth as it can be along the edges of the graph, coarse to fine. "Smooth" means: carried over

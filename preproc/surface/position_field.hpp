@@ -6,6 +6,7 @@
 #include "preproc/surface/orientation_field.hpp"
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -16,8 +17,8 @@ using LatticeCoordinates = std::array<float, 2>;
 
 // How coordinates at one node become coordinates at its neighbour: `turns` times 60°, then a shift.
 struct LatticeStep {
-  int turns = 0;  // 0 to 5
   LatticeCoordinates shift{};
+  std::int32_t turns = 0;  // 0 to 5
 };
 
 // A node as the lattice sees it.
@@ -55,13 +56,32 @@ inline LatticeCoordinates turned(const LatticeCoordinates& p, int turns) {
   }
 }
 
+inline LatticeStep inverse(const LatticeStep& step) {
+  const int turns = step.turns == 0 ? 0 : 6 - step.turns;
+  const LatticeCoordinates back = turned(step.shift, turns);
+  return {{-back[0], -back[1]}, turns};
+}
+
 inline LatticeCoordinates carried(const LatticeStep& step, const LatticeCoordinates& p) {
   const LatticeCoordinates q = turned(p, step.turns);
   return {q[0] + step.shift[0], q[1] + step.shift[1]};
 }
 
+// To the nearest integer, for |x| < 2^22: std::nearbyint is a function call, and sweeps round a lot.
+inline float rounded(float x) {
+  constexpr float shift = 12582912.0F;  // 1.5 * 2^23, above which floats are integers
+  return (x + shift) - shift;
+}
+
 // The lattice point nearest to (u, v): round u, v and -u-v, and mend the one with the largest rounding error.
-LatticeCoordinates nearest_lattice_point(const LatticeCoordinates& p);
+inline LatticeCoordinates nearest_lattice_point(const LatticeCoordinates& p) {
+  const float w = -p[0] - p[1];
+  const float u = rounded(p[0]), v = rounded(p[1]), rw = rounded(w);
+  const float eu = std::abs(u - p[0]), ev = std::abs(v - p[1]), ew = std::abs(rw - w);
+  // Which one is the worst is as good as random, so this is arithmetic instead of branches.
+  const bool mend_u = (eu > ev) & (eu > ew), mend_v = !mend_u & (ev > ew);
+  return {u - static_cast<float>(mend_u) * (u + v + rw), v - static_cast<float>(mend_v) * (u + v + rw)};
+}
 
 // Squared length of u a + v b where the edge length is 1.
 inline float squared_length(const LatticeCoordinates& p) {
@@ -72,9 +92,10 @@ struct PositionOptions {
   int sweeps = 4;  // of Gauss-Seidel on each level, 1 or more
 };
 
-// Per node of the finest level, its coordinates relative to its nearest lattice point.
 struct PositionField {
-  std::vector<LatticeCoordinates> offsets;
+  std::vector<LatticeCoordinates>
+      offsets;                     // per node of the finest level, its coordinates from its nearest lattice point
+  std::vector<LatticeStep> steps;  // per edge of the finest level, from the neighbour to the node
 };
 
 // Sets each node to the running mean of what its neighbours' coordinates predict, each prediction taken at its nearest

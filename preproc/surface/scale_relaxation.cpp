@@ -24,7 +24,7 @@ std::vector<Complex> turning(const GraphLevel& level, const std::vector<Complex>
         const Complex d = here.coordinates(level.positions[j] - level.positions[i]);
         const Complex relative =
             directions[j] * transport(TangentFrame(level.normals[j]), here) * std::conj(directions[i]);
-        const double angle = std::remainder(std::arg(relative), M_PI / 3);
+        const double angle = small_angle(sixth_turn(relative).remainder);
         const double w = static_cast<double>(level.weights[e]);
         xx += w * d.real() * d.real();
         xy += w * d.real() * d.imag();
@@ -48,12 +48,13 @@ struct System {
   std::vector<double> mass;
   std::vector<double> rhs;
   std::vector<double> x;
+  std::vector<double> before;
 };
 
 // See sweep() of the orientation field for the blocks.
 void smooth(System& s) {
   const GraphLevel& g = *s.graph;
-  const std::vector<double> before = s.x;
+  const std::vector<double>& before = s.before = s.x;
   for_each_block(g.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       double sum = s.rhs[i], weight = s.mass[i];
@@ -101,7 +102,7 @@ void relax_scale(FieldGraph& graph, const OrientationField& orientation, const S
     s.mass.assign(g.size(), 0.0);
   }
   GraphLevel& finest = graph.levels.front();
-  const std::vector<Complex> turn = turning(finest, orientation.directions.front());
+  const std::vector<Complex> turn = turning(finest, orientation.directions);
   for_each_block(finest.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       systems[0].mass[i] = options.screening * finest.areas[i] * std::exp(-2 * finest.log_length[i]);

@@ -19,21 +19,31 @@ constexpr double equilateral_area = 0.43301270189221932;  // sqrt(3)/4, of edge 
 
 // What all steps read of the scan.
 struct Scan {
-  explicit Scan(const SurfaceMesh& surface) : mesh(surface), stars(surface), areas(surface.vertices.size(), 0.0) {
+  explicit Scan(const SurfaceMesh& surface) : mesh(surface), areas(surface.vertices.size(), 0.0) {
     for (const Triangle& t : mesh.triangles) {
       const double third = area_vector(mesh, t).norm() / 6;
       area += 3 * third;
       for (const std::uint32_t v : t) areas[v] += third;
     }
+    // One neighbour per corner: on a closed surface each edge is there from both ends; at a border one end is missing,
+    // which averages do not mind.
+    first.assign(mesh.vertices.size() + 1, 0);
+    for (const Triangle& t : mesh.triangles)
+      for (const std::uint32_t v : t) ++first[v + 1];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    neighbours.resize(3 * mesh.triangles.size());
+    std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
+    for (const Triangle& t : mesh.triangles)
+      for (std::size_t k = 0; k < 3; ++k) neighbours[next[t[k]]++] = t[(k + 1) % 3];
   }
 
   template <class Visit>
-  void for_each_neighbour(std::uint32_t vertex, const Visit& visit) const {
-    for (const std::uint32_t corner : stars.corners(vertex)) visit(mesh.triangles[corner / 3][(corner + 1) % 3]);
+  void for_each_neighbour(std::size_t vertex, const Visit& visit) const {
+    for (std::uint32_t i = first[vertex]; i < first[vertex + 1]; ++i) visit(neighbours[i]);
   }
 
   const SurfaceMesh& mesh;
-  VertexStars stars;
+  std::vector<std::uint32_t> first, neighbours;
   std::vector<double> areas;  // a third of the triangles around each vertex
   double area = 0;
 };
@@ -63,7 +73,7 @@ void average_with_neighbours(const Scan& scan, std::vector<Value>& values, int s
       for (std::size_t v = first; v < last; ++v) {
         Value sum = values[v] * 0;
         double count = 0;
-        scan.for_each_neighbour(static_cast<std::uint32_t>(v), [&](std::uint32_t w) {
+        scan.for_each_neighbour(v, [&](std::uint32_t w) {
           sum += values[w];
           ++count;
         });
@@ -82,7 +92,7 @@ std::vector<double> squared_curvature(const Scan& scan, const std::vector<Vec3>&
     for (std::size_t v = first; v < last; ++v) {
       const TangentFrame frame(normals[v]);
       double xx = 0, xy = 0, yy = 0, bp = 0, bq = 0, br = 0;
-      scan.for_each_neighbour(static_cast<std::uint32_t>(v), [&](std::uint32_t w) {
+      scan.for_each_neighbour(v, [&](std::uint32_t w) {
         const Vec3 edge = scan.mesh.vertices[w] - scan.mesh.vertices[v];
         const double length2 = edge.squaredNorm();
         if (!(length2 > 0)) return;
@@ -140,8 +150,6 @@ void limit_gradation(const Scan& scan, double gradation, std::vector<double>& le
       }
     });
   };
-  // In ascending order of length, as the queue would give them; most vertices bind nobody.
-  std::vector<std::uint32_t> order;
   for (std::uint32_t v = 0; v < length.size(); ++v) {
     bool binds = false;
     scan.for_each_neighbour(v, [&](std::uint32_t w) {
@@ -157,28 +165,25 @@ void limit_gradation(const Scan& scan, double gradation, std::vector<double>& le
   }
 }
 
-double count_of(const Scan& scan, const std::vector<double>& length, std::vector<double>* per_component,
-                const std::vector<std::uint32_t>& component) {
-  double count = 0;
-  for (std::size_t v = 0; v < length.size(); ++v) {
-    const double here = scan.areas[v] / (equilateral_area * length[v] * length[v]);
-    count += here;
-    if (per_component) (*per_component)[component[v]] += here;
-  }
-  return count;
-}
-
-// Gives small components their triangles; the rest shares what remains.
+// Scales to the wanted number of triangles, after giving small components theirs.
 void scale_to_count(const Scan& scan, const SizingOptions& options, const Components& components,
                     std::vector<double>& length) {
-  for (int round = 0; round < 4; ++round) {
+  bool again = true;
+  for (int round = 0; round < 10 && again; ++round) {
     std::vector<double> share(components.count, 0.0);
-    const double count = count_of(scan, length, &share, components.of_vertex);
-    const double scale = std::sqrt(count / options.triangles);
-    for (std::size_t v = 0; v < length.size(); ++v) {
-      const double there = share[components.of_vertex[v]] / (scale * scale);
-      length[v] *= scale * std::min(1.0, std::sqrt(there / options.triangles_per_component));
+    for (std::size_t v = 0; v < length.size(); ++v)
+      share[components.of_vertex[v]] += scan.areas[v] / (equilateral_area * length[v] * length[v]);
+    const double count = std::accumulate(share.begin(), share.end(), 0.0);
+    // Where a component is enlarged the others' shares change; that settles after a round or two.
+    std::vector<double> scale(components.count, std::sqrt(count / options.triangles));
+    again = false;
+    for (std::size_t c = 0; c < scale.size(); ++c) {
+      const double wanted = options.triangles_per_component * (scale[c] * scale[c]);
+      if (share[c] >= 0.99 * wanted || components.count == 1) continue;
+      scale[c] *= std::sqrt(share[c] / wanted);
+      again = true;
     }
+    for (std::size_t v = 0; v < length.size(); ++v) length[v] *= scale[components.of_vertex[v]];
   }
 }
 
@@ -218,18 +223,16 @@ SizingField compute_sizing_field(const SurfaceMesh& mesh, const SizingOptions& o
   const Components components = find_components(mesh);
   std::vector<double> length(phi.size());
   for (std::size_t v = 0; v < phi.size(); ++v) length[v] = std::exp(phi[v]);
-  // Clamps and gradation are relative to the scale, and the scale to the clamped and graded field: twice settles it.
-  for (int round = 0; round < 2; ++round) {
-    scale_to_count(scan, options, components, length);
-    for (double& h : length) h = std::clamp(h, options.smallest * uniform_length, options.largest * uniform_length);
-    limit_gradation(scan, options.gradation, length);
-    if (round == 0 && options.sizing != Sizing::uniform) {
-      for (std::size_t v = 0; v < phi.size(); ++v) phi[v] = std::log(length[v]);
-      average_with_neighbours(scan, phi, 10 * sweeps_factor);
-      for (std::size_t v = 0; v < phi.size(); ++v) length[v] = std::exp(phi[v]);
-    }
-  }
+  // Clamps and gradation are relative to the scale, so it comes first; it is nearly one afterwards.
   scale_to_count(scan, options, components, length);
+  if (options.sizing != Sizing::uniform || !options.factors.empty()) {
+    for (std::size_t v = 0; v < phi.size(); ++v)
+      phi[v] = std::log(std::clamp(length[v], options.smallest * uniform_length, options.largest * uniform_length));
+    average_with_neighbours(scan, phi, 10 * sweeps_factor);
+    for (std::size_t v = 0; v < phi.size(); ++v) length[v] = std::exp(phi[v]);
+    limit_gradation(scan, options.gradation, length);
+    scale_to_count(scan, options, components, length);
+  }
   return {std::move(length)};
 }
 

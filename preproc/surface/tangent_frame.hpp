@@ -10,6 +10,17 @@ namespace scan2fea {
 
 using Complex = std::complex<double>;
 
+// In these loops std::abs costs too much: it guards against overflow.
+inline double length(const Complex& z) {
+  return std::sqrt(std::norm(z));
+}
+
+// z / |z|; 1 where there is no direction.
+inline Complex unit(const Complex& z) {
+  const double l = length(z);
+  return l > 1e-150 ? z * (1 / l) : Complex(1, 0);
+}
+
 // A right-handed frame (x, y, normal), a function of the normal alone, so that it need not be stored: Duff et al.,
 // "Building an Orthonormal Basis, Revisited" (JCGT 2017).
 struct TangentFrame {
@@ -33,8 +44,30 @@ struct TangentFrame {
 // its imaginary part to y.x' - x.y'. Where normals are opposed it is arbitrary.
 inline Complex transport(const TangentFrame& from, const TangentFrame& to) {
   const Complex t(to.x.dot(from.x) + to.y.dot(from.y), to.y.dot(from.x) - to.x.dot(from.y));
-  const double length = std::abs(t);
-  return length > 1e-12 ? t / length : Complex(1, 0);
+  return unit(t);
+}
+
+// A direction as a multiple of 60° and a remainder of at most 30°.
+struct SixthTurn {
+  int turns;          // 0 to 5
+  Complex remainder;  // unit
+};
+
+// Sector tests instead of an arctangent: the limits are odd multiples of 30°. Precondition: unit.
+inline SixthTurn sixth_turn(const Complex& direction) {
+  constexpr double half = 0.5, height = 0.86602540378443865;  // cosine and sine of 60°
+  static constexpr double cosines[6] = {1, half, -half, -1, -half, half};
+  static constexpr double sines[6] = {0, height, height, 0, -height, -height};
+  const double c = direction.real(), s = direction.imag();
+  const int upper = c > 0 ? 1 : 2, lower = c > 0 ? 5 : 4, level = c > 0 ? 0 : 3;
+  const int turns = std::abs(c) >= height ? level : s > 0 ? upper : lower;
+  return {turns, direction * Complex(cosines[turns], -sines[turns])};
+}
+
+// The angle of a remainder, in radians, to 1e-4: the first terms of the arcsine.
+inline double small_angle(const Complex& remainder) {
+  const double x = remainder.imag(), xx = x * x;
+  return x * (1 + xx * (1.0 / 6 + xx * (3.0 / 40 + xx * (5.0 / 112 + xx * (35.0 / 1152)))));
 }
 
 }  // namespace scan2fea
