@@ -230,8 +230,13 @@ SizingField compute_sizing_field(const SurfaceMesh& mesh, const SizingOptions& o
       phi[v] = std::log(std::clamp(length[v], options.smallest * uniform_length, options.largest * uniform_length));
     average_with_neighbours(scan, phi, 10 * sweeps_factor);
     for (std::size_t v = 0; v < phi.size(); ++v) length[v] = std::exp(phi[v]);
-    limit_gradation(scan, options.gradation, length);
-    scale_to_count(scan, options, components, length);
+    // What the limit takes the scale gives back, and steepens again by as much; a few rounds end that.
+    for (int round = 0; round < 4; ++round) {
+      limit_gradation(scan, options.gradation, length);
+      const double limited = length.front();
+      scale_to_count(scan, options, components, length);
+      if (length.front() < 1.03 * limited) break;
+    }
   }
   return {std::move(length)};
 }
