@@ -205,8 +205,8 @@ TEST_F(Command, ConvertKeepsTheMesh) {
 }
 
 TEST_F(Command, EnrichKeepsTheMeasuredPoints) {
-  const std::string scan = scan_of_a_sphere();
-  ASSERT_EQ(run_command("enrich '" + scan + "' -o '" + path("rich.ply") + "' --sampling-radius 1").exit_code, 0);
+  const std::string scan = scan_of_a_sphere();  // edges of about 0.75
+  ASSERT_EQ(run_command("enrich '" + scan + "' -o '" + path("rich.ply") + "' --sampling-radius 0.4").exit_code, 0);
   const SurfaceMesh before = read_surface(scan), after = read_surface(path("rich.ply"));
   ASSERT_GT(after.vertices.size(), before.vertices.size());
   for (std::size_t v = 0; v < before.vertices.size(); ++v) ASSERT_EQ(after.vertices[v], before.vertices[v]);
