@@ -38,7 +38,7 @@ sms::Count_stop_predicate<Mesh> stop_at(const PeerJob& job) {
 
 void cgal_garland_heckbert(const PeerJob& job) {
   Mesh mesh = read(job);
-  sms::GarlandHeckbert_policies<Mesh, Kernel> policies(mesh);
+  sms::GarlandHeckbert_plane_policies<Mesh, Kernel> policies(mesh);
   const sms::Bounded_normal_change_filter<> keep_orientation;
   sms::edge_collapse(
       mesh, stop_at(job),
