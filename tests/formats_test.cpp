@@ -1,0 +1,63 @@
+#include "export/formats.hpp"
+
+#include "preproc/mesh/error.hpp"
+#include "tests/structured_tets.hpp"
+#include "tests/temporary_folder.hpp"
+
+#include <gmock/gmock.h>
+
+namespace scan2fea {
+namespace {
+
+TEST(Formats, AreToldByTheExtensionInAnyCase) {
+  EXPECT_EQ(volume_format("a/part.inp"), VolumeFormat::inp);
+  EXPECT_EQ(volume_format("PART.VTU"), VolumeFormat::vtu);
+  EXPECT_EQ(volume_format("part.old.msh"), VolumeFormat::msh);
+  EXPECT_EQ(volume_format("part.stl"), std::nullopt);
+  EXPECT_EQ(volume_format("inp"), std::nullopt);
+}
+
+TEST(Formats, AllCarryTheSameMesh) {
+  const TemporaryFolder folder;
+  const TetMesh mesh = analytic::tetrahedra_of_box({3, 2, 1}, {3, 2, 2}, 2);
+  for (const char* name : {"box.inp", "box.msh", "box.vtu"}) {
+    write_volume(mesh, folder / name);
+    const TetMesh read = read_volume(folder / name);
+    EXPECT_EQ(read.tetrahedra, mesh.tetrahedra) << name;
+    EXPECT_EQ(read.mid_edge_nodes, mesh.mid_edge_nodes) << name;
+    EXPECT_NEAR(total_volume(read), 6, 1e-12) << name;
+  }
+}
+
+TEST(Formats, AnUnknownExtensionIsWrongUsageThatListsTheKnown) {
+  const TemporaryFolder folder;
+  const TetMesh mesh = analytic::tetrahedra_of_box({1, 1, 1}, {1, 1, 1}, 1);
+  try {
+    write_volume(mesh, folder / "box.xyz");
+    FAIL();
+  } catch (const WrongUsage& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr(".inp (Abaqus, CalculiX)"));
+  }
+  EXPECT_THROW(read_volume(folder / "box.xyz"), WrongUsage);
+}
+
+TEST(Formats, AFailureLeavesAnExistingFile) {
+  const TemporaryFolder folder;
+  const TetMesh mesh = analytic::tetrahedra_of_box({1, 1, 1}, {1, 1, 1}, 1);
+  for (const char* name : {"box.inp", "box.msh", "box.vtu"})
+    EXPECT_THROW(write_volume(mesh, folder / "missing" / name), IoError) << name;
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(Formats, WarnsOfElementsThatCalculixRefuses) {
+  const TemporaryFolder folder;
+  TetMesh mesh = analytic::tetrahedra_of_box({1, 1, 1}, {1, 1, 1}, 1);
+  EXPECT_TRUE(write_volume(mesh, folder / "good.inp").warnings.empty());
+  std::swap(mesh.tetrahedra[2][0], mesh.tetrahedra[2][1]);
+  const auto warnings = write_volume(mesh, folder / "inverted.inp").warnings;
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_THAT(warnings.front(), ::testing::HasSubstr("CalculiX will refuse element 3: Jacobian determinant -1 "));
+}
+
+}  // namespace
+}  // namespace scan2fea
