@@ -197,7 +197,9 @@ TEST_F(Command, ConvertKeepsTheMesh) {
   ASSERT_EQ(run_command("convert '" + scan + "' -o '" + path("sphere.off") + "'").exit_code, 0);
   EXPECT_EQ(read_surface(path("sphere.off")).vertices, read_surface(scan).vertices);
   ASSERT_EQ(run_command("run '" + scan + "' --faces 500 -o '" + path("part.vtu") + "'").exit_code, 0);
-  ASSERT_EQ(run_command("convert '" + path("part.vtu") + "' -o '" + path("part.msh") + "'").exit_code, 0);
+  ASSERT_EQ(run_command("convert '" + path("part.vtu") + "' -o '" + path("part.msh") + "' --msh-version 2.2").exit_code,
+            0);
+  EXPECT_TRUE(file_content(path("part.msh")).starts_with("$MeshFormat\n2.2 0 8\n"));
   const auto report = nlohmann::json::parse(run_command("check '" + path("part.msh") + "' --json -").standard_output);
   EXPECT_EQ(report.at("volume_mesh").at("inverted").get<int>(), 0);
   EXPECT_EQ(run_command("convert '" + scan + "' -o '" + path("sphere.inp") + "'").exit_code, 2)

@@ -14,6 +14,7 @@ struct ConvertFlags {
   std::filesystem::path input;
   OutputFlag output;
   std::optional<std::string> unit;
+  MshVersion msh_version = MshVersion::v4_1;
   bool quiet = false;
 };
 
@@ -29,7 +30,9 @@ int convert(const ConvertFlags& flags) {
                       .limit = {},
                       .advice = "scan2fea tetrahedralize, or scan2fea run"});
   if (volume_in && volume_out) {
-    const VolumeFileOptions options{.unit = flags.unit.value_or(""), .provenance = flags.input.filename().string()};
+    const VolumeFileOptions options{.unit = flags.unit.value_or(""),
+                                    .provenance = flags.input.filename().string(),
+                                    .msh_version = flags.msh_version};
     for (const std::string& warning : write_volume(read_volume(flags.input), flags.output.output, options).warnings)
       display.line("warning: " + warning);
   } else if (volume_in) {
@@ -52,6 +55,7 @@ SubCommand add_convert(CLI::App& root) {
   app->add_option("--unit", flags->unit, "Length unit, recorded in what is written")
       ->check(CLI::IsMember({"um", "mm", "cm", "m", "in", "ft"}))
       ->type_name("UNIT");
+  add_msh_version_flag(*app, flags->msh_version);
   app->add_flag("--quiet", flags->quiet, "No messages but errors");
   return {app, [flags] { return convert(*flags); }};
 }

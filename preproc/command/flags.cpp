@@ -233,4 +233,9 @@ void add_tetrahedralize_flags(CLI::App& command, TetrahedralizeOptions& options,
       ->type_name("Q");
 }
 
+void add_msh_version_flag(CLI::App& command, MshVersion& version) {
+  add_choice<MshVersion>(command, "--msh-version", version, {{"2.2", MshVersion::v2_2}, {"4.1", MshVersion::v4_1}},
+                         "Of Gmsh's format, if that is what is written; 4.1 is the default");
+}
+
 }  // namespace scan2fea::command

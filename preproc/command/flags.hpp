@@ -2,6 +2,7 @@
 // field.
 #pragma once
 
+#include "export/formats.hpp"
 #include "preproc/pipeline.hpp"
 
 #include <CLI/App.hpp>
@@ -59,5 +60,6 @@ void add_repair_flags(CLI::App& command, RepairOptions& options);
 void add_enrich_flags(CLI::App& command, EnrichOptions& options);
 void add_simplify_flags(CLI::App& command, SimplifyOptions& options);
 void add_tetrahedralize_flags(CLI::App& command, TetrahedralizeOptions& options, int& order);
+void add_msh_version_flag(CLI::App& command, MshVersion& version);
 
 }  // namespace scan2fea::command

@@ -73,7 +73,8 @@ int make_mesh(MakeMeshJob job) {
   }
   if (result.volume_mesh) {
     const VolumeFileOptions options{.unit = job.common.unit.value_or(""),
-                                    .provenance = job.common.input.filename().string()};
+                                    .provenance = job.common.input.filename().string(),
+                                    .msh_version = job.msh_version};
     for (const std::string& warning : write_volume(*result.volume_mesh, job.output.output, options).warnings)
       display.line("warning: " + warning);
   } else {

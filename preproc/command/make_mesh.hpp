@@ -12,6 +12,7 @@ struct MakeMeshJob {
   PipelineOptions pipeline;
   bool enrich = false;  // --enrich of the commands in which that stage is a choice
   EnrichOptions enrich_options;
+  MshVersion msh_version = MshVersion::v4_1;
 };
 
 // --enrich and the flags of that stage, for commands in which it is a choice.

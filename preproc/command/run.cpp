@@ -13,6 +13,7 @@ SubCommand add_run(CLI::App& root) {
   add_optional_enrich_flags(*app, *job);
   add_simplify_flags(*app, *job->pipeline.simplify);
   add_tetrahedralize_flags(*app, *job->pipeline.tetrahedralize, job->pipeline.order);
+  add_msh_version_flag(*app, job->msh_version);
   return {app, [job] { return make_mesh(*job); }};
 }
 

@@ -12,6 +12,7 @@ SubCommand add_tetrahedralize(CLI::App& root) {
   add_common_flags(*app, job->common);
   add_output_flag(*app, job->output);
   add_tetrahedralize_flags(*app, *job->pipeline.tetrahedralize, job->pipeline.order);
+  add_msh_version_flag(*app, job->msh_version);
   return {app, [job] { return make_mesh(*job); }};
 }
 
