@@ -1,0 +1,55 @@
+// How far one surface lies from another at most: a bound that holds for every point, not for samples of them.
+//
+// The distance to a convex set is a convex function. So on a triangle abc the distance to a triangle r of the other
+// surface is largest at a, b or c, and for any set of candidates r
+//   lower = max over corners p of dist(p, surface)  <=  max over abc of dist(., surface)
+//         <=  min over candidates r of max over corners p of dist(p, r) = upper.
+// Candidates are the triangles nearest to the corners; where corners have different ones, the piece is cut where it is
+// equally far from two of them, which is where it crosses from one to the next, and the parts are bounded again. (The
+// bound is that of Guthe, Borodin and Klein, "Fast and accurate Hausdorff distance calculation between meshes", 2005;
+// cutting between the candidates, where they halve, needs about a third of the pieces.)
+#pragma once
+
+#include "preproc/mesh/surface_mesh.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace scan2fea {
+
+struct DeviationBoundOptions {
+  // Bounds that do not exceed this need not be close, which saves most of the time: model units, 0 or more. For the
+  // question whether a deviation of D is kept, D.
+  double limit = 0;
+  // Above the limit, how far the upper bound may lie above the lower one, over the larger of the lower bound and the
+  // limit; in (0, 1].
+  double tolerance = 0.02;
+};
+
+// From all points of one surface to the other.
+struct OneSidedDeviation {
+  // Per triangle of the one surface, bounds of the distance of its farthest point: model units.
+  std::vector<double> lower, upper;
+  double largest_lower = 0, largest_upper = 0;
+  std::uint32_t worst_face = 0;        // where the upper bound is largest
+  Vec3 farthest_point = Vec3::Zero();  // the farthest point that was met in it, at distance lower[worst_face]
+};
+
+struct DeviationBound {
+  OneSidedDeviation to_reference;  // per triangle of the mesh
+  OneSidedDeviation to_mesh;       // per triangle of the reference
+  double lower() const;            // the Hausdorff distance is at least this
+  double upper() const;            // and at most this, up to rounding (about 1e-14 of the coordinates)
+  bool holds(double distance) const { return upper() <= distance; }
+  const OneSidedDeviation& worse_side() const;
+};
+
+// Throws InvalidInput where a surface has no triangle, WrongUsage for options out of range. Orientation and topology do
+// not matter; triangles without area are bounded as segments or points. Parallel; the same for any number of threads.
+// About 1 us a triangle and thread where the surfaces are alike and the limit is above most distances; each further
+// piece costs one search of the nearest triangle. Pieces smaller than the tolerance are never cut, so it ends.
+// Distances below 1e-7 of the reference's diagonal are not told from each other.
+DeviationBound bound_deviation(const SurfaceMesh& mesh, const SurfaceMesh& reference,
+                               const DeviationBoundOptions& options);
+
+}  // namespace scan2fea
