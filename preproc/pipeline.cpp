@@ -96,6 +96,7 @@ void describe(const SimplifyResult& result, StageRecord& record) {
 // Beside what came out, the best that the surface allows, and where it is set.
 void describe(const TetrahedralizeResult& result, StageRecord& record) {
   record.changes = {{"tetrahedra", static_cast<double>(result.mesh.tetrahedra.size())},
+                    {"tetrahedra_estimated", static_cast<double>(result.estimated_tetrahedra)},
                     {"nodes", static_cast<double>(result.mesh.nodes.size())},
                     {"surface_allows_min_dihedral_deg", result.bound.min_dihedral_deg},
                     {"surface_allows_scaled_jacobian", result.bound.scaled_jacobian}};

@@ -94,6 +94,24 @@ TEST(Tetrahedralize, InteriorSizeMakesFewerElements) {
   }
 }
 
+TEST(Tetrahedralize, TellsTheCountBeforehandWithinAFifth) {
+  for (const SurfaceMesh& surface : {analytic::sphere(1, 4), analytic::box({1, 1, 1}, 0.1),
+                                     analytic::torus(3, 1, 60, 24), analytic::box({20, 20, 0.5}, 1)})
+    for (const double value : {1.3, 1.6, 3.0}) {
+      TetrahedralizeOptions options;
+      options.interior_size.value = value;
+      std::string told;
+      const TetrahedralizeResult result =
+          tetrahedralize(surface, options, Progress([&](std::string_view stage, double) {
+                           if (stage.starts_with("fill with about")) told = stage;
+                           return true;
+                         }));
+      const auto count = static_cast<double>(result.mesh.tetrahedra.size());
+      EXPECT_NEAR(static_cast<double>(result.estimated_tetrahedra), count, 0.2 * count) << surface.triangles.size();
+      EXPECT_THAT(told, HasSubstr(std::to_string(result.estimated_tetrahedra)));
+    }
+}
+
 TEST(Tetrahedralize, ThinWallsAreLeftToTetGen) {
   EXPECT_EQ(tetrahedralize(analytic::box({20, 20, 0.5}, 1)).interior, InteriorPoints::tetgen);
   EXPECT_EQ(tetrahedralize(analytic::box({3, 3, 3}, 0.5)).interior, InteriorPoints::lattice);

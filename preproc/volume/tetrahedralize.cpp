@@ -1,6 +1,7 @@
 #include "preproc/volume/tetrahedralize.hpp"
 
 #include "preproc/mesh/error.hpp"
+#include "preproc/volume/estimate_tetrahedra.hpp"
 #include "preproc/volume/fill_regions.hpp"
 
 #include <algorithm>
@@ -88,11 +89,15 @@ TetrahedralizeResult tetrahedralize(const SurfaceMesh& surface, const Tetrahedra
         thin_wall_share(surface, inside) > most_thin_walls ? InteriorPoints::tetgen : InteriorPoints::lattice;
   const bool own_points = result.interior == InteriorPoints::tetgen;
   TetgenInput input{switches(options, own_points), surface.vertices, surface.triangles};
-  if (!own_points) {
+  if (own_points) {
+    result.estimated_tetrahedra = estimate_with_tetgen(surface, options.max_volume);
+  } else {
     const std::vector<Vec3> points =
         lattice_points(surface, inside, limited(options.interior_size, options.max_volume, surface));
     input.points.insert(input.points.end(), points.begin(), points.end());
+    result.estimated_tetrahedra = estimate_with_lattice(surface, points.size());
   }
+  progress("fill with about " + std::to_string(result.estimated_tetrahedra) + " tetrahedra", 0);
 
   TetgenLimits limits = options.tetgen;
   limits.time = time_left(limits.time);

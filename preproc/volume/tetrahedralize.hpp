@@ -47,6 +47,7 @@ struct TetrahedralizeResult {
   // boundary face i is triangle i.
   std::vector<std::uint32_t> boundary_parent;
   InteriorPoints interior = InteriorPoints::lattice;  // who placed them: never automatic
+  std::size_t estimated_tetrahedra = 0;               // as told before the mesher ran; see estimate_tetrahedra.hpp
   SurfaceBound bound;                                 // of the surface given
   OptimiseResult optimised;
 };
@@ -54,9 +55,10 @@ struct TetrahedralizeResult {
 // Source: Si, "TetGen, a Delaunay-based quality tetrahedral mesh generator", ACM TOMS 41 (2015).
 // The surface is closed, manifold, free of self-intersections and faces outwards; shells within shells that face
 // inwards are cavities and stay empty; disjoint bodies are all filled. Its triangles become `mesh.boundary` in their
-// order (unless split), its vertices the first nodes. The same mesh for the same input, unless the time limit strikes.
-// Throws MeshingFailed (see TetgenLimits and fill_regions), Cancelled. About 15 s for a million tetrahedra.
-// Not guaranteed: any shape of the tetrahedra but that they are positive; see SurfaceBound for what the surface allows.
+// order (unless split), its vertices the first nodes. `progress` is told the estimated count as part of the first
+// stage's name, before the mesher runs. The same mesh for the same input, unless the time limit strikes. Throws
+// MeshingFailed (see TetgenLimits and fill_regions), Cancelled. About 15 s for a million tetrahedra. Not guaranteed:
+// any shape of the tetrahedra but that they are positive; see SurfaceBound for what the surface allows.
 TetrahedralizeResult tetrahedralize(const SurfaceMesh& surface, const TetrahedralizeOptions& options = {},
                                     const Progress& progress = {});
 
