@@ -197,6 +197,15 @@ void add_simplify_flags(CLI::App& command, SimplifyOptions& options) {
       ->capture_default_str()
       ->check(CLI::Range(0.02, 1.0))
       ->type_name("G");
+  command
+      .add_option_function<std::string>(
+          "--feature-angle",
+          [](const std::string& text) {
+            if (text != "off")
+              throw CLI::ValidationError("--feature-angle", "'" + text + "': sharp edges are not kept yet; try off");
+          },
+          "Edges sharper than this would be kept; only 'off' is known yet")
+      ->type_name("off");
   add_choice<Effort>(command, "--effort", options.effort,
                      {{"low", Effort::low}, {"normal", Effort::normal}, {"high", Effort::high}},
                      "Time spent on shape and fidelity; normal is the default");
