@@ -21,22 +21,13 @@ Point point(const Vec3& p) {
   return Point(p.x(), p.y(), p.z());
 }
 
-Corners corners_of(const SurfaceMesh& mesh, const Triangle& t) {
-  return {point(mesh.vertices[t[0]]), point(mesh.vertices[t[1]]), point(mesh.vertices[t[2]])};
+Corners corners_of(const std::vector<Vec3>& points, const Triangle& t) {
+  return {point(points[t[0]]), point(points[t[1]]), point(points[t[2]])};
 }
 
 BoundingBox box_of(const SurfaceMesh& mesh, const Triangle& t) {
   const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
   return {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
-}
-
-// Exact, but for most faces decided by one cross product: rounding cannot make more of a zero area than the bound.
-bool is_collinear(const SurfaceMesh& mesh, const Triangle& t) {
-  const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
-  const Vec3 ab = b - a, ac = c - a;
-  if (ab.cross(ac).squaredNorm() > 1e-24 * ab.squaredNorm() * ac.squaredNorm()) return false;
-  const Corners p = corners_of(mesh, t);
-  return CGAL::collinear(p[0], p[1], p[2]);
 }
 
 // Whether a plane through the triangle, or one of its edges' walls along a coordinate axis, has all `points` strictly
@@ -129,16 +120,15 @@ SharedVertices shared_vertices(const Triangle& s, const Triangle& t) {
   return shared;
 }
 
-bool at_edge_intersect(const SurfaceMesh& mesh, const Triangle& s, const Triangle& t, std::size_t i, std::size_t j) {
-  const auto& v = mesh.vertices;
+bool at_edge_intersect(const std::vector<Vec3>& v, const Triangle& s, const Triangle& t, std::size_t i, std::size_t j) {
   const std::uint32_t from = s[(i + 1) % 3], to = s[(i + 2) % 3];
   if (is_surely_unfolded(v[from], v[to], v[s[i]], v[t[j]])) return false;
   const Point a = point(v[from]), b = point(v[to]), c = point(v[s[i]]), d = point(v[t[j]]);
   return CGAL::orientation(a, b, c, d) == CGAL::COPLANAR && CGAL::coplanar_orientation(a, b, c, d) == CGAL::POSITIVE;
 }
 
-bool at_vertex_intersect(const SurfaceMesh& mesh, const Triangle& s, const Triangle& t, std::size_t i, std::size_t j) {
-  const auto& v = mesh.vertices;
+bool at_vertex_intersect(const std::vector<Vec3>& v, const Triangle& s, const Triangle& t, std::size_t i,
+                         std::size_t j) {
   const std::array<Vec3, 2> others_s{v[s[(i + 1) % 3]], v[s[(i + 2) % 3]]};
   const std::array<Vec3, 2> others_t{v[t[(j + 1) % 3]], v[t[(j + 2) % 3]]};
   if (is_surely_apart(v[s[i]], others_s, others_t)) return false;
@@ -146,30 +136,15 @@ bool at_vertex_intersect(const SurfaceMesh& mesh, const Triangle& s, const Trian
     return !is_separated(segment, face) &&
            CGAL::do_intersect(Kernel::Triangle_3(face[0], face[1], face[2]), Kernel::Segment_3(segment[0], segment[1]));
   };
-  return meets(corners_of(mesh, s), {point(others_t[0]), point(others_t[1])}) ||
-         meets(corners_of(mesh, t), {point(others_s[0]), point(others_s[1])});
+  return meets(corners_of(v, s), {point(others_t[0]), point(others_t[1])}) ||
+         meets(corners_of(v, t), {point(others_s[0]), point(others_s[1])});
 }
 
-bool apart_intersect(const SurfaceMesh& mesh, const Triangle& s, const Triangle& t) {
-  const auto& v = mesh.vertices;
+bool apart_intersect(const std::vector<Vec3>& v, const Triangle& s, const Triangle& t) {
   if (is_surely_apart({v[s[0]], v[s[1]], v[s[2]]}, {v[t[0]], v[t[1]], v[t[2]]})) return false;
-  const Corners p = corners_of(mesh, s), q = corners_of(mesh, t);
+  const Corners p = corners_of(v, s), q = corners_of(v, t);
   return !is_separated(q, p) && !is_separated(p, q) &&
          CGAL::do_intersect(Kernel::Triangle_3(p[0], p[1], p[2]), Kernel::Triangle_3(q[0], q[1], q[2]));
-}
-
-bool faces_intersect(const SurfaceMesh& mesh, const Triangle& s, const Triangle& t) {
-  const SharedVertices shared = shared_vertices(s, t);
-  switch (shared.count) {
-    case 0:
-      return apart_intersect(mesh, s, t);
-    case 1:
-      return at_vertex_intersect(mesh, s, t, shared.of_first, shared.of_second);
-    case 2:
-      return at_edge_intersect(mesh, s, t, 3 - shared.of_first, 3 - shared.of_second);
-    default:
-      return true;  // the same face twice
-  }
 }
 
 // Pairs of a face of the mesh and one of `faces`. `named` tells of every face whether it is one of these.
@@ -178,7 +153,7 @@ std::vector<FacePair> find_pairs(const SurfaceMesh& mesh, std::span<const std::u
   std::vector<FacePair> pairs;
   std::vector<std::uint32_t> solid;
   for (const std::uint32_t f : faces) {
-    if (is_collinear(mesh, mesh.triangles[f]))
+    if (is_collinear(mesh.vertices, mesh.triangles[f]))
       pairs.push_back({f, f});
     else
       solid.push_back(f);
@@ -194,10 +169,10 @@ std::vector<FacePair> find_pairs(const SurfaceMesh& mesh, std::span<const std::u
     for (std::size_t i = block * block_size; i < end; ++i) {
       const auto f = static_cast<std::uint32_t>(i);
       const Triangle& t = mesh.triangles[f];
-      if (is_collinear(mesh, t)) continue;
+      if (is_collinear(mesh.vertices, t)) continue;
       tree.for_each_overlap(box_of(mesh, t), [&](std::uint32_t other) {
         if (named[f] != 0 && other <= f) return;  // that pair is found from its other face
-        if (faces_intersect(mesh, mesh.triangles[std::min(f, other)], mesh.triangles[std::max(f, other)]))
+        if (faces_intersect(mesh.vertices, mesh.triangles[std::min(f, other)], mesh.triangles[std::max(f, other)]))
           found[block].push_back({std::min(f, other), std::max(f, other)});
       });
     }
@@ -208,6 +183,29 @@ std::vector<FacePair> find_pairs(const SurfaceMesh& mesh, std::span<const std::u
 }
 
 }  // namespace
+
+bool is_collinear(const std::vector<Vec3>& points, const Triangle& t) {
+  const Vec3 &a = points[t[0]], &b = points[t[1]], &c = points[t[2]];
+  const Vec3 ab = b - a, ac = c - a;
+  // For most faces one cross product decides: rounding cannot make more of a zero area than the bound.
+  if (ab.cross(ac).squaredNorm() > 1e-24 * ab.squaredNorm() * ac.squaredNorm()) return false;
+  const Corners p = corners_of(points, t);
+  return CGAL::collinear(p[0], p[1], p[2]);
+}
+
+bool faces_intersect(const std::vector<Vec3>& points, const Triangle& s, const Triangle& t) {
+  const SharedVertices shared = shared_vertices(s, t);
+  switch (shared.count) {
+    case 0:
+      return apart_intersect(points, s, t);
+    case 1:
+      return at_vertex_intersect(points, s, t, shared.of_first, shared.of_second);
+    case 2:
+      return at_edge_intersect(points, s, t, 3 - shared.of_first, 3 - shared.of_second);
+    default:
+      return true;  // the same face twice
+  }
+}
 
 std::vector<FacePair> find_self_intersections(const SurfaceMesh& mesh) {
   std::vector<std::uint32_t> all(mesh.triangles.size());

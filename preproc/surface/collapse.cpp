@@ -2,10 +2,12 @@
 
 #include "preproc/mesh/error.hpp"
 #include "preproc/surface/collapse_cost.hpp"
+#include "preproc/surface/face_boxes.hpp"
 #include "preproc/surface/halfedge_mesh.hpp"
 #include "preproc/surface/indexed_heap.hpp"
 #include "preproc/surface/place_vertex.hpp"
 #include "preproc/surface/shepard.hpp"
+#include "quality/self_intersections.hpp"
 #include "quality/triangle_tree.hpp"
 
 #include <algorithm>
@@ -54,6 +56,7 @@ class Simplifier {
         predictor_(mesh_, options.cost, options.sizing),
         heap_(3 * mesh_.face_slots()),
         smallest_turn_cosine_(cosine_of_deg(options.largest_normal_turn_deg)) {
+    if (options.keep_clear) boxes_.emplace(mesh);
     if (options.lifting == CollapseLifting::closest_point) {
       scan_.emplace(mesh);
       scan_normals_.reserve(mesh.triangles.size());
@@ -137,15 +140,20 @@ class Simplifier {
       place = border_place(h);
     else
       place = inner_place(h, scan_triangle);
-    if (!place) return false;
+    if (!place || (boxes_ && !stays_clear(h, *place))) return false;
 
     for (const Index v : {kept, removed})
       for_each_edge_at(v, [&](Index e) {
         if (heap_.contains(e)) heap_.remove(e);
       });
+    if (boxes_) boxes_->remove(HalfedgeMesh::face(h));
+    if (boxes_ && !mesh_.is_border(h)) boxes_->remove(HalfedgeMesh::face(mesh_.opposite(h)));
     predictor_.merge(kept, removed);
     mesh_.collapse(h);
     mesh_.points[kept] = *place;
+    if (boxes_)
+      mesh_.for_each_outgoing(
+          kept, [&](Index out) { boxes_->set(HalfedgeMesh::face(out), box_of(HalfedgeMesh::face(out))); });
     if (scan_) scan_triangle_[kept] = scan_triangle;
     for_each_edge_at(kept, [&](Index e) { heap_.push(e, predictor_(e)); });
     return true;
@@ -249,6 +257,40 @@ class Simplifier {
     return true;
   }
 
+  BoundingBox box_of(Index f) const {
+    const Triangle t = mesh_.triangle(f);
+    const Vec3 &a = mesh_.points[t[0]], &b = mesh_.points[t[1]], &c = mesh_.points[t[2]];
+    return {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
+  }
+
+  // Whether the faces that the contraction would leave meet no others, nor one another.
+  bool stays_clear(Index h, const Vec3& place) {
+    const Index kept = mesh_.origin(h), removed = mesh_.target(h);
+    const Vec3 old_place = std::exchange(mesh_.points[kept], place);
+    star_.clear();
+    BoundingBox box{place, place};
+    for (const Index r : rim_) {
+      star_.push_back({kept, mesh_.origin(r), mesh_.target(r)});
+      box.low = box.low.cwiseMin(mesh_.points[mesh_.origin(r)]).cwiseMin(mesh_.points[mesh_.target(r)]);
+      box.high = box.high.cwiseMax(mesh_.points[mesh_.origin(r)]).cwiseMax(mesh_.points[mesh_.target(r)]);
+    }
+    bool clear = true;
+    const auto test = [&](const Triangle& s, const Triangle& t) {
+      if (clear && faces_intersect(mesh_.points, s, t)) clear = false;
+    };
+    for (std::size_t i = 0; i < star_.size(); ++i) {
+      if (is_collinear(mesh_.points, star_[i])) clear = false;
+      for (std::size_t j = 0; j < i; ++j) test(star_[i], star_[j]);
+    }
+    boxes_->for_each_overlap(box, [&](Index f) {
+      const Triangle t = mesh_.triangle(f);
+      const bool replaced = std::any_of(t.begin(), t.end(), [&](Index v) { return v == kept || v == removed; });
+      for (std::size_t i = 0; i < star_.size() && clear && !replaced; ++i) test(star_[i], t);
+    });
+    mesh_.points[kept] = old_place;
+    return clear;
+  }
+
   HalfedgeMesh mesh_;
   const CollapseOptions& options_;
   CollapsePredictor predictor_;
@@ -258,10 +300,12 @@ class Simplifier {
   std::optional<TriangleTree> scan_;
   std::vector<Eigen::Vector3f> scan_normals_;
   std::vector<Index> scan_triangle_;  // per vertex: where it lies on the scan, the hint of the next query
+  std::optional<FaceBoxes> boxes_;    // of the faces that are left; where they must not meet
 
   // Of the contraction at hand.
   std::vector<Index> rim_;
   std::vector<Vec3> link_;
+  std::vector<Triangle> star_;
   mutable std::vector<SurfaceSample> samples_;
 };
 

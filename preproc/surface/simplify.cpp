@@ -1,10 +1,12 @@
 #include "preproc/surface/simplify.hpp"
 
 #include "preproc/mesh/error.hpp"
+#include "preproc/surface/clear_moves.hpp"
 #include "preproc/surface/guard.hpp"
 #include "preproc/surface/lattice.hpp"
 #include "preproc/surface/preserve_volume.hpp"
 #include "preproc/surface/reference_surface.hpp"
+#include "preproc/surface/refined_scan.hpp"
 #include "preproc/surface/shape_fit.hpp"
 #include "quality/deviation.hpp"
 #include "quality/validity.hpp"
@@ -19,6 +21,8 @@ namespace {
 constexpr double equilateral_area = 0.43301270189221932;  // of a triangle with edges of length 1
 // A closed surface needs four faces; fewer than this and no shape is left of anything.
 constexpr double fewest_faces = 4;
+// Over the wanted edge length.
+constexpr double longest_edge_to_contract = 1;
 
 // What an effort buys.
 struct FitPlan {
@@ -53,10 +57,13 @@ std::string describe(const SurfaceDefects& defects) {
 
 // Exact volume, then the guard.
 void finish(Candidate& candidate, const ReferenceSurface& scan, const Progress& progress) {
-  preserve_volume(candidate.mesh, scan.mesh);
-  const GuardResult guarded = guard_surface(candidate.mesh, scan, {}, progress);
-  candidate.crossings_mended = guarded.before.crossings.size();
-  if (!guarded.clean()) candidate.failure = describe(guarded.after);
+  try {
+    const GuardResult guarded = guard_surface(candidate.mesh, scan, {}, progress);
+    candidate.crossings_mended = guarded.before.crossings.size();
+    if (!guarded.clean()) candidate.failure = describe(guarded.after);
+  } catch (const NotMeshable& e) {
+    candidate.failure = e.parts().what;
+  }
 }
 
 Candidate by_lattice(const ReferenceSurface& scan, double faces, const SimplifyOptions& options,
@@ -88,24 +95,37 @@ Candidate by_lattice(const ReferenceSurface& scan, double faces, const SimplifyO
   return candidate;
 }
 
-// Where the lattice gives way: contractions towards the same sizing, then the same fit.
-Candidate by_relaxation(const ReferenceSurface& scan, double faces, const SimplifyOptions& options,
-                        const Progress& progress) {
+// Where the lattice gives way: contractions towards the same sizing, none of which makes faces meet, then the same fit.
+// Where the fit ends in crossings that the guard cannot mend, vertices go only as far towards it as nothing meets, and
+// where the shape needs more triangles than were asked for, it keeps them: this way always ends in a sound surface.
+Candidate by_contraction(const ReferenceSurface& scan, double faces, const SimplifyOptions& options,
+                         const Progress& progress) {
   SizingOptions sizing;
   sizing.triangles = faces;
   sizing.sizing = options.sizing;
   sizing.gradation = options.gradation;
+  // Long triangles, as CAD makes them, are no start for even ones.
+  RefinedScan refined = refine_scan(scan.mesh, compute_sizing_field(scan.mesh, sizing), longest_edge_to_contract);
+  Candidate contracted{.mesh = std::move(refined.mesh), .crossings_mended = 0, .failure = {}};
   CollapseOptions collapse_options;
   collapse_options.target_faces = static_cast<std::size_t>(std::lround(faces));
   collapse_options.cost = CollapseCost::sized_length;
-  collapse_options.sizing = compute_sizing_field(scan.mesh, sizing).edge_length;
-  Candidate candidate{.mesh = scan.mesh, .crossings_mended = 0, .failure = {}};
-  collapse(candidate.mesh, collapse_options, progress);
+  collapse_options.sizing = std::move(refined.edge_length);
+  collapse_options.keep_clear = true;
+  collapse(contracted.mesh, collapse_options, progress);
+
+  Candidate fitted = contracted;
   ShapeFitOptions fit;
   fit.rounds = 12;
-  optimise_shape_and_fit(candidate.mesh, scan, fit, progress);
-  finish(candidate, scan, progress);
-  return candidate;
+  optimise_shape_and_fit(fitted.mesh, scan, fit, progress);
+  const std::vector<Vec3> targets = fitted.mesh.vertices;
+  finish(fitted, scan, progress);
+  if (fitted.failure.empty()) return fitted;
+
+  SurfaceMesh near_fit = contracted.mesh;
+  move_clear(near_fit, targets);
+  if (preserve_volume_clear(near_fit, scan.mesh)) contracted.mesh = std::move(near_fit);
+  return contracted;
 }
 
 // The paper's method as it is; only what passes through itself is mended.
@@ -134,7 +154,7 @@ SurfaceMesh make_surface(const ReferenceSurface& scan, double faces, const Simpl
   if (!candidate.failure.empty() && options.method == SimplifyMethod::lattice) {
     result.method = SimplifyMethod::collapse;
     result.fallback_reason = candidate.failure;
-    candidate = by_relaxation(scan, faces, options, progress);
+    candidate = by_contraction(scan, faces, options, progress);
   }
   if (!candidate.failure.empty())
     throw NotMeshable({.what = "no valid surface of this size: " + candidate.failure,
@@ -189,14 +209,6 @@ SurfaceMesh make_surface_within(const ReferenceSurface& scan, double distance, c
   return std::move(*best);
 }
 
-double wanted_faces(const TargetSize& size, const ReferenceSurface& scan) {
-  if (const auto* count = std::get_if<FaceCount>(&size)) return static_cast<double>(count->faces);
-  if (const auto* ratio = std::get_if<FaceRatio>(&size))
-    return ratio->of_input * static_cast<double>(scan.mesh.triangles.size());
-  const double length = std::get<MeanEdgeLength>(size).length;
-  return scan.area / (equilateral_area * length * length);
-}
-
 void require_positive(double value, const char* what) {
   if (!(value > 0) || !std::isfinite(value))
     throw WrongUsage({.what = std::string(what) + " must be above 0",
@@ -204,6 +216,15 @@ void require_positive(double value, const char* what) {
                       .value = std::to_string(value),
                       .limit = {},
                       .advice = {}});
+}
+
+double wanted_faces(const TargetSize& size, const ReferenceSurface& scan) {
+  if (const auto* count = std::get_if<FaceCount>(&size)) return static_cast<double>(count->faces);
+  if (const auto* ratio = std::get_if<FaceRatio>(&size))
+    return ratio->of_input * static_cast<double>(scan.mesh.triangles.size());
+  const double length = std::get<MeanEdgeLength>(size).length;
+  require_positive(length, "the edge length");
+  return scan.area / (equilateral_area * length * length);
 }
 
 }  // namespace

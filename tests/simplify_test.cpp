@@ -1,0 +1,140 @@
+// What simplification must keep, whatever the shape: topology, volume, soundness, the number of triangles asked for.
+#include "preproc/surface/simplify.hpp"
+
+#include "preproc/mesh/error.hpp"
+#include "preproc/surface/components.hpp"
+#include "quality/self_intersections.hpp"
+#include "quality/validity.hpp"
+#include "tests/analytic_meshes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace scan2fea {
+namespace {
+
+SurfaceMesh moved(SurfaceMesh mesh, const Vec3& by) {
+  for (Vec3& p : mesh.vertices) p += by;
+  return mesh;
+}
+
+// Signed volumes of the components, ascending: cavities first.
+std::vector<double> component_volumes(const SurfaceMesh& mesh) {
+  std::vector<std::uint32_t> root(mesh.vertices.size());
+  for (std::uint32_t v = 0; v < root.size(); ++v) root[v] = v;
+  const auto find = [&](std::uint32_t v) {
+    while (root[v] != v) v = root[v] = root[root[v]];
+    return v;
+  };
+  for (const Triangle& t : mesh.triangles) {
+    root[find(t[1])] = find(t[0]);
+    root[find(t[2])] = find(t[0]);
+  }
+  std::vector<double> of_root(root.size(), 0);
+  std::vector<bool> is_used(root.size(), false);
+  for (const Triangle& t : mesh.triangles) {
+    of_root[find(t[0])] += mesh.vertices[t[0]].dot(mesh.vertices[t[1]].cross(mesh.vertices[t[2]])) / 6;
+    is_used[find(t[0])] = true;
+  }
+  std::vector<double> volumes;
+  for (std::size_t v = 0; v < root.size(); ++v)
+    if (is_used[v]) volumes.push_back(of_root[v]);
+  std::sort(volumes.begin(), volumes.end());
+  return volumes;
+}
+
+SimplifyResult simplify_to(SurfaceMesh& mesh, const TargetSize& size) {
+  SimplifyOptions options;
+  options.size = size;
+  return simplify(mesh, options);
+}
+
+struct Shape {
+  std::string name;
+  SurfaceMesh mesh;
+  std::size_t faces;  // wanted
+};
+
+std::ostream& operator<<(std::ostream& out, const Shape& shape) {
+  return out << shape.name;
+}
+
+std::vector<Shape> shapes() {
+  using namespace analytic;
+  SurfaceMesh spheres;
+  for (int i = 0; i < 27; ++i) spheres = join(spheres, moved(sphere(1, 2), 3.0 * Vec3(i % 3, i / 3 % 3, i / 9)));
+  return {
+      {"Torus", torus(3, 1, 96, 48), 1200},
+      {"ThinTorus", torus(10, 0.3, 300, 12), 2000},
+      {"Cavity", join(sphere(2, 4), reversed(sphere(1, 3))), 1500},
+      {"GenusFive", slab_with_holes(5, 0.125), 1500},
+      {"GenusFiveCoarse", slab_with_holes(5, 0.25), 300},
+      {"Plate", box({100, 100, 2}, 2), 2000},
+      {"PlateWithTrianglesWiderThanThick", box({100, 100, 2}, 2), 300},
+      {"Rod", box({100, 0.5, 0.5}, 0.25), 1000},
+      {"Cube", box({1, 1, 1}, 1), 400},
+      {"CubeOfTwelveTriangles", box({1, 1, 1}, 1), 12},
+      {"ManyComponents", spheres, 27 * 80},
+  };
+}
+
+class SimplifyShape : public testing::TestWithParam<Shape> {};
+
+TEST_P(SimplifyShape, KeepsTopologyVolumeAndSoundness) {
+  const SurfaceMesh scan = GetParam().mesh;
+  ASSERT_TRUE(find_self_intersections(scan).empty());
+  SurfaceMesh mesh = scan;
+  const SimplifyResult result = simplify_to(mesh, FaceCount{GetParam().faces});
+  SCOPED_TRACE(result.fallback_reason);
+  const SurfaceValidity before = check_validity(scan), after = check_validity(mesh);
+  EXPECT_TRUE(after.closed());
+  EXPECT_TRUE(after.manifold());
+  EXPECT_TRUE(after.oriented());
+  EXPECT_EQ(after.components, before.components);
+  EXPECT_EQ(after.genus, before.genus);
+  EXPECT_TRUE(find_self_intersections(mesh).empty());
+  const double faces = static_cast<double>(GetParam().faces);
+  EXPECT_NEAR(static_cast<double>(mesh.triangles.size()), faces, std::max(2.0, 0.005 * faces));
+  EXPECT_EQ(result.faces_after, mesh.triangles.size());
+
+  const std::vector<double> wanted = component_volumes(scan), got = component_volumes(mesh);
+  ASSERT_EQ(got.size(), wanted.size());
+  for (std::size_t c = 0; c < got.size(); ++c) EXPECT_NEAR(got[c], wanted[c], 1e-9 * std::abs(wanted[c]));
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, SimplifyShape, testing::ValuesIn(shapes()),
+                         [](const auto& shape) { return shape.param.name; });
+
+// Where the shape has more to it than the triangles asked for can hold, more are made.
+TEST(Simplify, AsksForNoLessThanTheTopologyNeeds) {
+  const SurfaceMesh scan = analytic::slab_with_holes(5, 0.25);
+  SurfaceMesh mesh = scan;
+  const SimplifyResult result = simplify_to(mesh, FaceCount{20});
+  EXPECT_GT(mesh.triangles.size(), 20U);
+  EXPECT_FALSE(result.fallback_reason.empty());
+  EXPECT_TRUE(check_validity(mesh).closed());
+  EXPECT_EQ(check_validity(mesh).genus, 5);
+  EXPECT_TRUE(find_self_intersections(mesh).empty());
+}
+
+TEST(Simplify, MayAskForMoreTrianglesThanTheScanHas) {
+  SurfaceMesh mesh = analytic::sphere(1, 2);
+  simplify_to(mesh, FaceRatio{5});
+  EXPECT_NEAR(static_cast<double>(mesh.triangles.size()), 1600, 8);
+  EXPECT_TRUE(find_self_intersections(mesh).empty());
+}
+
+TEST(Simplify, RefusesSizesThatMeanNothing) {
+  SurfaceMesh mesh = analytic::sphere(1, 2);
+  for (const TargetSize& size :
+       {TargetSize(FaceRatio{0}), TargetSize(MeanEdgeLength{-1}), TargetSize(LargestDeviation{0})})
+    EXPECT_THROW(simplify_to(mesh, size), WrongUsage);
+  EXPECT_EQ(mesh.triangles.size(), 320U);
+}
+
+}  // namespace
+}  // namespace scan2fea
