@@ -1,0 +1,49 @@
+// Real scans go through the whole chain: triangle strips, holes, sharp edges.
+#include "tests/run_command.hpp"
+#include "tests/scans.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace scan2fea {
+namespace {
+
+class RunScans : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Scan, RunScans, ::testing::Values("igea.ply", "stanford-bunny.obj", "fandisk.obj"));
+
+TEST_P(RunScans, BecomeSoundMeshes) {
+  const auto scan = find_scan(GetParam());
+  if (!scan) GTEST_SKIP() << "no scan " << GetParam() << "; set SCAN2FEA_DATA to the folder that has it";
+  const testing::TemporaryFolder folder;
+  const std::string mesh = "'" + (folder / "part.inp").string() + "'";
+  const testing::CommandResult run =
+      testing::run_command("run '" + scan->string() + "' -o " + mesh + " --faces 6000 --order 2 --quiet --json -");
+  ASSERT_EQ(run.exit_code, 0) << run.standard_error;
+  EXPECT_EQ(run.standard_error, "");
+
+  const auto made = nlohmann::json::parse(run.standard_output);
+  const auto& surface = made["surface"];
+  EXPECT_NEAR(surface["faces"].get<double>(), 6000, 60);
+  EXPECT_TRUE(surface["closed"].get<bool>());
+  EXPECT_TRUE(surface["manifold"].get<bool>());
+  EXPECT_EQ(surface["self_intersections"].get<int>(), 0);
+  EXPECT_LE(surface["edge_ratio"]["mean"].get<double>(), 1.25);
+  EXPECT_LE(std::abs(made["deviation"]["volume_difference_pct"].get<double>()), 0.1);
+  EXPECT_EQ(made["volume_mesh"]["inverted"].get<int>(), 0);
+  const double volume = surface["volume"].get<double>();
+  EXPECT_NEAR(made["volume_mesh"]["volume"].get<double>(), volume, 1e-9 * volume);
+
+  // What the file holds is what was measured before it was written.
+  const testing::CommandResult check = testing::run_command("check " + mesh + " --quiet --json -");
+  ASSERT_EQ(check.exit_code, 0) << check.standard_error;
+  const auto read = nlohmann::json::parse(check.standard_output);
+  EXPECT_EQ(read["surface"]["faces"], surface["faces"]);
+  EXPECT_NEAR(read["surface"]["volume"].get<double>(), volume, 1e-9 * volume);
+  for (const char* count : {"nodes", "tetrahedra", "order", "inverted"})
+    EXPECT_EQ(read["volume_mesh"][count], made["volume_mesh"][count]) << count;
+}
+
+}  // namespace
+}  // namespace scan2fea
