@@ -1,0 +1,173 @@
+// The volume stage beside its peers, on surfaces given as files.
+//
+//   benchmark_volume table SURFACE...    one table per surface: TetGen and Gmsh alone, and ours at several settings
+//   benchmark_volume corpus FOLDER       every closed mesh in a folder, repaired and simplified to half its triangles:
+//                                        what came out beside what the surface allows
+//
+// Seconds are processor time of this process and its children, on one thread, of the whole stage: bounds, points,
+// TetGen in its child with the files between, optimisation. "x" is that over TetGen's own call in the same run.
+#include "preproc/mesh/error.hpp"
+#include "preproc/mesh/read_surface.hpp"
+#include "preproc/pipeline.hpp"
+#include "preproc/volume/fill_regions.hpp"
+#include "quality/tetrahedron_measures.hpp"
+#include "tests/benchmark/gmsh_volume_peer.hpp"
+
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <sys/resource.h>
+#include <vector>
+
+namespace scan2fea::benchmark {
+namespace {
+
+double processor_seconds() {
+  double sum = 0;
+  for (const int who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
+    rusage usage{};
+    getrusage(who, &usage);
+    for (const timeval& t : {usage.ru_utime, usage.ru_stime})
+      sum += static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  }
+  return sum;
+}
+
+double peak_megabytes(int who) {
+  rusage usage{};
+  getrusage(who, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+SurfaceMesh outward(const std::filesystem::path& file) {
+  SurfaceMesh surface = read_surface(file);
+  if (enclosed_volume(surface) < 0)
+    for (Triangle& t : surface.triangles) std::swap(t[0], t[1]);
+  return surface;
+}
+
+TetrahedralizeOptions ours(double interior_size, double threshold, int rounds) {
+  TetrahedralizeOptions options;
+  options.interior_size.value = interior_size;
+  options.optimise->threshold = threshold;
+  options.optimise->insertion_rounds = rounds;
+  return options;
+}
+
+TetrahedralizeOptions tetgen_optimised() {
+  TetrahedralizeOptions options;
+  options.interior = InteriorPoints::tetgen;
+  return options;
+}
+
+void table(const std::filesystem::path& file) {
+  const SurfaceMesh surface = outward(file);
+  const SurfaceBound bound = surface_bound(surface);
+  std::printf("%s: %zu triangles; the surface allows %.2f deg at (%.4g, %.4g, %.4g), scaled Jacobian %.3f\n",
+              file.filename().c_str(), surface.triangles.size(), bound.min_dihedral_deg, bound.min_dihedral_at.x(),
+              bound.min_dihedral_at.y(), bound.min_dihedral_at.z(), bound.scaled_jacobian);
+  std::printf(
+      "| | tetrahedra | estimated | dihedral angles | scaled Jacobian min / mean | seconds | x | us each |\n"
+      "|---|---|---|---|---|---|---|---|\n");
+  double tetgen_seconds = 0;
+  const auto row = [&](const char* name, const TetMesh& mesh, std::size_t estimated, double seconds) {
+    if (tetgen_seconds == 0) tetgen_seconds = seconds;
+    const TetSummary m = measure_tetrahedra(mesh);
+    std::printf("| %s | %zu | %s | %.1f–%.1f° | %.3f / %.3f | %.3f | %.2f | %.1f |\n", name, m.tetrahedra,
+                estimated > 0 ? std::to_string(estimated).c_str() : "", m.min_dihedral_deg, m.max_dihedral_deg,
+                m.scaled_jacobian.min, m.scaled_jacobian.mean, seconds, seconds / tetgen_seconds,
+                1e6 * seconds / static_cast<double>(m.tetrahedra));
+    std::fflush(stdout);
+  };
+  const auto our_row = [&](const char* name, const TetrahedralizeOptions& options) {
+    const double start = processor_seconds();
+    const TetrahedralizeResult result = tetrahedralize(surface, options);
+    row(name, result.mesh, result.estimated_tetrahedra, processor_seconds() - start);
+  };
+  const auto gmsh_row = [&](const char* name, int rounds) {
+    const double start = processor_seconds();
+    const TetMesh mesh = gmsh_hxt(surface, rounds);
+    row(name, mesh, 0, processor_seconds() - start);
+  };
+  {
+    const double start = processor_seconds();
+    TetgenOutput output = run_tetgen({"pYQJq1.2/10", surface.vertices, surface.triangles});
+    const double seconds = processor_seconds() - start;
+    const TetMesh mesh = fill_regions(std::move(output.points), std::move(output.tetrahedra), surface.triangles,
+                                      surface.vertices.size());
+    row("TetGen `pYq1.2/10`", mesh, 0, seconds);
+  }
+  gmsh_row("Gmsh HXT", 0);
+  gmsh_row("Gmsh HXT, optimised 5 times", 5);
+  our_row("TetGen's points, optimised", tetgen_optimised());
+  our_row("scan2fea", TetrahedralizeOptions{});
+  our_row("scan2fea, `--interior-size 1.3x`", ours(1.3, 1.4, 2));
+  our_row("the same, threshold 1.5, three rounds", ours(1.3, 1.5, 3));
+  std::printf("peak memory: %.0f MB\n\n", std::max(peak_megabytes(RUSAGE_SELF), peak_megabytes(RUSAGE_CHILDREN)));
+}
+
+// One line of the corpus; returns whether the quality asked for was reached, nothing where there is no mesh.
+std::optional<bool> corpus_row(const std::filesystem::path& file) {
+  const std::string name = file.filename().string();
+  try {
+    PipelineOptions options;
+    options.simplify->size = FaceRatio{0.5};
+    options.tetrahedralize->tetgen.time = std::chrono::seconds(60);
+    const PipelineResult result = run_pipeline(read_surface(file), options);
+    const SurfaceBound bound = surface_bound(result.surface);
+    const TetSummary m = measure_tetrahedra(*result.volume_mesh);
+    const double wanted = std::min(24.0, 0.9 * bound.min_dihedral_deg);
+    const bool reached = m.min_dihedral_deg >= wanted;
+    std::printf("| %s | %zu | %zu | %.1f–%.1f° | %.3f / %.3f | %.1f° | %s |\n", name.c_str(),
+                result.surface.triangles.size(), m.tetrahedra, m.min_dihedral_deg, m.max_dihedral_deg,
+                m.scaled_jacobian.min, m.scaled_jacobian.mean, bound.min_dihedral_deg, reached ? "yes" : "**no**");
+    std::fflush(stdout);
+    return reached;
+  } catch (const Error& error) {
+    std::printf("| %s | | | | | | %s |\n", name.c_str(), error.what());
+    std::fflush(stdout);
+    return std::nullopt;
+  }
+}
+
+void corpus(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (const auto extension = entry.path().extension();
+        extension == ".off" || extension == ".ply" || extension == ".obj")
+      files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  std::printf(
+      "| mesh | triangles | tetrahedra | dihedral angles | scaled Jacobian min / mean | surface allows | reached |\n"
+      "|---|---|---|---|---|---|---|\n");
+  std::size_t reached = 0, meshed = 0;
+  for (const auto& file : files)
+    if (const std::optional<bool> outcome = corpus_row(file)) {
+      ++meshed;
+      reached += *outcome;
+    }
+  std::printf("%zu of %zu meshed reach 24 degrees or 0.9 of what the surface allows\n", reached, meshed);
+}
+
+}  // namespace
+}  // namespace scan2fea::benchmark
+
+int main(int argc, char** argv) {
+  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+  const std::string mode = argc > 2 ? argv[1] : "";
+  try {
+    if (mode == "table")
+      for (int i = 2; i < argc; ++i) scan2fea::benchmark::table(argv[i]);
+    else if (mode == "corpus")
+      scan2fea::benchmark::corpus(argv[2]);
+    else
+      return std::fprintf(stderr, "usage: benchmark_volume table SURFACE... | corpus FOLDER\n"), 2;
+  } catch (const std::exception& error) {
+    return std::fprintf(stderr, "%s\n", error.what()), 1;
+  }
+  return 0;
+}
