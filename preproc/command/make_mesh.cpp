@@ -46,9 +46,14 @@ void require_known_format(const MakeMeshJob& job) {
 
 }  // namespace
 
-void add_optional_enrich_flags(CLI::App& command, MakeMeshJob& job) {
+void add_surface_flags(CLI::App& command, MakeMeshJob& job) {
+  add_common_flags(command, job.common);
+  add_output_flag(command, job.output);
+  add_size_flags(command, job.size);
+  add_repair_flags(command, *job.pipeline.repair);
   command.add_flag("--enrich", job.enrich, "First add points where the scanner left too few (see scan2fea enrich)");
   add_enrich_flags(command, job.enrich_options);
+  add_simplify_flags(command, *job.pipeline.simplify);
 }
 
 int make_mesh(MakeMeshJob job) {

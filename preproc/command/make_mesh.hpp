@@ -15,8 +15,8 @@ struct MakeMeshJob {
   MshVersion msh_version = MshVersion::v4_1;
 };
 
-// --enrich and the flags of that stage, for commands in which it is a choice.
-void add_optional_enrich_flags(CLI::App& command, MakeMeshJob& job);
+// Input, output, reports, and all flags of the surface stages, for the commands that run them one after the other.
+void add_surface_flags(CLI::App& command, MakeMeshJob& job);
 
 // Returns the command's exit status: 0, or 1 if a gate failed, and then nothing is written but the report.
 int make_mesh(MakeMeshJob job);

@@ -6,12 +6,7 @@ namespace scan2fea::command {
 SubCommand add_run(CLI::App& root) {
   const auto job = std::make_shared<MakeMeshJob>();
   CLI::App* app = root.add_subcommand("run", "The whole chain: a scan in, a mesh for a solver out");
-  add_common_flags(*app, job->common);
-  add_output_flag(*app, job->output);
-  add_size_flags(*app, job->size);
-  add_repair_flags(*app, *job->pipeline.repair);
-  add_optional_enrich_flags(*app, *job);
-  add_simplify_flags(*app, *job->pipeline.simplify);
+  add_surface_flags(*app, *job);
   add_tetrahedralize_flags(*app, *job->pipeline.tetrahedralize, job->pipeline.order);
   add_msh_version_flag(*app, job->msh_version);
   return {app, [job] { return make_mesh(*job); }};
