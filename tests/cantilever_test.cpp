@@ -14,6 +14,7 @@
 #include "tests/analytic_meshes.hpp"
 #include "tests/calculix.hpp"
 #include "tests/run_command.hpp"
+#include "tests/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -50,11 +51,10 @@ double timoshenko_tip() {
 
 TEST(Cantilever, OfANoisyScanBendsAsTimoshenkoSays) {
   if (!calculix::available()) GTEST_SKIP() << "ccx is not installed (Debian: calculix-ccx)";
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   write_surface(noisy_scan(), folder / "scan.ply");
-  const testing::CommandResult run =
-      testing::run_command("run '" + (folder / "scan.ply").string() + "' -o '" + (folder / "beam.inp").string() +
-                           "' --edge-length 2 --order 2 --unit mm");
+  const CommandResult run = run_command("run '" + (folder / "scan.ply").string() + "' -o '" +
+                                        (folder / "beam.inp").string() + "' --edge-length 2 --order 2 --unit mm");
   ASSERT_EQ(run.exit_code, 0) << run.standard_error;
 
   const TetMesh mesh = read_inp(folder / "beam.inp");

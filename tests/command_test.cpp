@@ -3,6 +3,7 @@
 #include "preproc/mesh/write_surface.hpp"
 #include "tests/analytic_meshes.hpp"
 #include "tests/run_command.hpp"
+#include "tests/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,11 +15,7 @@
 namespace scan2fea {
 namespace {
 
-using testing::file_content;
 using ::testing::HasSubstr;
-using testing::run_command;
-using testing::TemporaryFolder;
-using testing::write_file;
 
 class Command : public ::testing::Test {
  protected:
@@ -51,35 +48,35 @@ class Command : public ::testing::Test {
 };
 
 TEST_F(Command, EmptyFileIsUnreadable) {
-  write_file(path("empty.stl"), "");
+  write_text(path("empty.stl"), "");
   expect_failure("empty.stl", 3);
 }
 
 TEST_F(Command, TruncatedBinaryStlIsUnreadable) {
   write_surface(analytic::sphere(1, 2), path("whole.stl"));
-  const std::string whole = file_content(path("whole.stl"));
-  write_file(path("cut.stl"), whole.substr(0, whole.size() / 2));
+  const std::string whole = contents(path("whole.stl"));
+  write_text(path("cut.stl"), whole.substr(0, whole.size() / 2));
   expect_failure("cut.stl", 3);
 }
 
 TEST_F(Command, TextNamedStlIsUnreadable) {
-  write_file(path("notes.stl"), "Minutes of the meeting.\nNothing was decided.\n");
+  write_text(path("notes.stl"), "Minutes of the meeting.\nNothing was decided.\n");
   expect_failure("notes.stl", 3);
 }
 
 TEST_F(Command, ObjIndexOutOfRangeNamesTheLine) {
-  write_file(path("bad.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 7\n");
+  write_text(path("bad.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 7\n");
   expect_failure("bad.obj", 3);
   EXPECT_THAT(run_command("check '" + path("bad.obj") + "'").standard_error, HasSubstr("bad.obj:4"));
 }
 
 TEST_F(Command, NotANumberIsUnreadable) {
-  write_file(path("nan.obj"), "v 0 0 0\nv 1 nan 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+  write_text(path("nan.obj"), "v 0 0 0\nv 1 nan 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
   expect_failure("nan.obj", 3);
 }
 
 TEST_F(Command, PlyThatPromisesMoreThanItHoldsIsUnreadable) {
-  write_file(path("short.ply"),
+  write_text(path("short.ply"),
              "ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\nproperty float y\nproperty float z\n"
              "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
   expect_failure("short.ply", 3);
@@ -95,12 +92,12 @@ TEST_F(Command, MissingFileIsUnreadable) {
 }
 
 TEST_F(Command, SingleTriangleIsNotMeshable) {
-  write_file(path("one.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  write_text(path("one.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   expect_failure("one.obj", 4);
 }
 
 TEST_F(Command, FlatClosedSurfaceIsNotMeshable) {
-  write_file(path("flat.obj"), "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\nf 1 3 2\nf 1 4 3\n");
+  write_text(path("flat.obj"), "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\nf 1 3 2\nf 1 4 3\n");
   expect_failure("flat.obj", 4);
 }
 
@@ -120,19 +117,19 @@ TEST_F(Command, WrongFlagsAreWrongUsage) {
 
 TEST_F(Command, ExistingOutputNeedsForce) {
   const std::string scan = scan_of_a_sphere();
-  write_file(path("out.ply"), "precious");
+  write_text(path("out.ply"), "precious");
   const std::string command = "surface '" + scan + "' -o '" + path("out.ply") + "' --faces 500";
   EXPECT_EQ(run_command(command).exit_code, 6);
-  EXPECT_EQ(file_content(path("out.ply")), "precious");
+  EXPECT_EQ(contents(path("out.ply")), "precious");
   EXPECT_EQ(run_command(command + " --force").exit_code, 0);
   EXPECT_GT(read_surface(path("out.ply")).triangles.size(), 400U);
 }
 
 TEST_F(Command, FailureLeavesAnExistingOutputAlone) {
-  write_file(path("one.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-  write_file(path("out.ply"), "precious");
+  write_text(path("one.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  write_text(path("out.ply"), "precious");
   EXPECT_EQ(run_command("surface '" + path("one.obj") + "' -o '" + path("out.ply") + "' --force").exit_code, 4);
-  EXPECT_EQ(file_content(path("out.ply")), "precious");
+  EXPECT_EQ(contents(path("out.ply")), "precious");
 }
 
 TEST_F(Command, MissingFolderCannotBeWritten) {
@@ -144,7 +141,7 @@ TEST_F(Command, FailedGateExitsWithOneAndWritesNoMesh) {
                               path("report.json") + "' --require 'edge_ratio.mean<=1.0'";
   EXPECT_EQ(run_command(command).exit_code, 1);
   EXPECT_FALSE(std::filesystem::exists(path("out.ply")));
-  const auto report = nlohmann::json::parse(file_content(path("report.json")));
+  const auto report = nlohmann::json::parse(contents(path("report.json")));
   EXPECT_FALSE(report.at("gates").at(0).at("pass").get<bool>());
 }
 
@@ -160,7 +157,7 @@ TEST_F(Command, RunFillsTheVolumeOfTheScan) {
   EXPECT_EQ(report.at("volume_mesh").at("order").get<int>(), 2);
   EXPECT_EQ(report.at("surface").at("self_intersections").get<int>(), 0);
   EXPECT_GE(report.at("stages").size(), 4U);
-  EXPECT_THAT(file_content(path("part.inp")), HasSubstr("C3D10"));
+  EXPECT_THAT(contents(path("part.inp")), HasSubstr("C3D10"));
 }
 
 TEST_F(Command, BytesAreTheSameForAnyNumberOfThreads) {
@@ -168,13 +165,13 @@ TEST_F(Command, BytesAreTheSameForAnyNumberOfThreads) {
   ASSERT_EQ(run_command(command + path("one.inp") + "' --threads 1").exit_code, 0);
   ASSERT_EQ(run_command(command + path("two.inp") + "' --threads 2").exit_code, 0);
   ASSERT_EQ(run_command(command + path("again.inp") + "' --threads 2").exit_code, 0);
-  const std::string one = file_content(path("one.inp"));
-  EXPECT_TRUE(one == file_content(path("two.inp")));
-  EXPECT_TRUE(one == file_content(path("again.inp")));
+  const std::string one = contents(path("one.inp"));
+  EXPECT_TRUE(one == contents(path("two.inp")));
+  EXPECT_TRUE(one == contents(path("again.inp")));
 }
 
 TEST_F(Command, ConfigurationGivesWhatFlagsLeaveOut) {
-  write_file(path("part.toml"), "ratio = 0.9\nseed = 3\n\n[surface]\nfaces = 300\n");
+  write_text(path("part.toml"), "ratio = 0.9\nseed = 3\n\n[surface]\nfaces = 300\n");
   const std::string scan = scan_of_a_sphere();
   ASSERT_EQ(
       run_command("surface '" + scan + "' -o '" + path("a.ply") + "' --config '" + path("part.toml") + "'").exit_code,
@@ -185,7 +182,7 @@ TEST_F(Command, ConfigurationGivesWhatFlagsLeaveOut) {
           .exit_code,
       0);
   EXPECT_NEAR(static_cast<double>(read_surface(path("b.ply")).triangles.size()), 600, 12);
-  write_file(path("typo.toml"), "faecs = 300\n");
+  write_text(path("typo.toml"), "faecs = 300\n");
   const auto result =
       run_command("surface '" + scan + "' -o '" + path("c.ply") + "' --config '" + path("typo.toml") + "'");
   EXPECT_EQ(result.exit_code, 2);
@@ -199,7 +196,7 @@ TEST_F(Command, ConvertKeepsTheMesh) {
   ASSERT_EQ(run_command("run '" + scan + "' --faces 500 -o '" + path("part.vtu") + "'").exit_code, 0);
   ASSERT_EQ(run_command("convert '" + path("part.vtu") + "' -o '" + path("part.msh") + "' --msh-version 2.2").exit_code,
             0);
-  EXPECT_TRUE(file_content(path("part.msh")).starts_with("$MeshFormat\n2.2 0 8\n"));
+  EXPECT_TRUE(contents(path("part.msh")).starts_with("$MeshFormat\n2.2 0 8\n"));
   const auto report = nlohmann::json::parse(run_command("check '" + path("part.msh") + "' --json -").standard_output);
   EXPECT_EQ(report.at("volume_mesh").at("inverted").get<int>(), 0);
   EXPECT_EQ(run_command("convert '" + scan + "' -o '" + path("sphere.inp") + "'").exit_code, 2)

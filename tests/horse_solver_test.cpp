@@ -3,6 +3,7 @@
 #include "tests/calculix.hpp"
 #include "tests/run_command.hpp"
 #include "tests/scans.hpp"
+#include "tests/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -18,9 +19,9 @@ TEST(HorseSolver, ReactionsAreTheWeight) {
   if (!scan) GTEST_SKIP() << "no scan horse.ply; set SCAN2FEA_DATA to the folder that has it";
   if (!calculix::available()) GTEST_SKIP() << "ccx is not installed (Debian: calculix-ccx)";
   constexpr double wanted_faces = 12604;
-  const testing::TemporaryFolder folder;
-  const testing::CommandResult run = testing::run_command(
-      "run '" + scan->string() + "' -o '" + (folder / "horse.inp").string() + "' --faces 12604 --order 2 --json -");
+  const TemporaryFolder folder;
+  const CommandResult run = run_command("run '" + scan->string() + "' -o '" + (folder / "horse.inp").string() +
+                                        "' --faces 12604 --order 2 --json -");
   ASSERT_EQ(run.exit_code, 0) << run.standard_error;
 
   const auto figures = nlohmann::json::parse(run.standard_output);

@@ -1,6 +1,7 @@
 // Real scans go through the whole chain: triangle strips, holes, sharp edges.
 #include "tests/run_command.hpp"
 #include "tests/scans.hpp"
+#include "tests/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -16,10 +17,10 @@ INSTANTIATE_TEST_SUITE_P(Scan, RunScans, ::testing::Values("igea.ply", "stanford
 TEST_P(RunScans, BecomeSoundMeshes) {
   const auto scan = find_scan(GetParam());
   if (!scan) GTEST_SKIP() << "no scan " << GetParam() << "; set SCAN2FEA_DATA to the folder that has it";
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const std::string mesh = "'" + (folder / "part.inp").string() + "'";
-  const testing::CommandResult run =
-      testing::run_command("run '" + scan->string() + "' -o " + mesh + " --faces 6000 --order 2 --quiet --json -");
+  const CommandResult run =
+      run_command("run '" + scan->string() + "' -o " + mesh + " --faces 6000 --order 2 --quiet --json -");
   ASSERT_EQ(run.exit_code, 0) << run.standard_error;
   EXPECT_EQ(run.standard_error, "");
 
@@ -36,7 +37,7 @@ TEST_P(RunScans, BecomeSoundMeshes) {
   EXPECT_NEAR(made["volume_mesh"]["volume"].get<double>(), volume, 1e-9 * volume);
 
   // What the file holds is what was measured before it was written.
-  const testing::CommandResult check = testing::run_command("check " + mesh + " --quiet --json -");
+  const CommandResult check = run_command("check " + mesh + " --quiet --json -");
   ASSERT_EQ(check.exit_code, 0) << check.standard_error;
   const auto read = nlohmann::json::parse(check.standard_output);
   EXPECT_EQ(read["surface"]["faces"], surface["faces"]);
