@@ -17,6 +17,11 @@ struct Case {
   int order;
 };
 
+// For the test's name, which otherwise shows the bytes of the struct.
+void PrintTo(const Case& c, std::ostream* out) {
+  *out << (c.version == MshVersion::v2_2 ? "2.2" : "4.1") << " order " << c.order;
+}
+
 class Msh : public testing::TestWithParam<Case> {
  protected:
   TetMesh box() const { return analytic::tetrahedra_of_box({3, 2, 1}, {3, 2, 2}, GetParam().order); }
