@@ -12,16 +12,26 @@ namespace {
 void write_deck(const Analysis& analysis, const std::filesystem::path& file) {
   std::ofstream deck(file);
   deck.precision(12);
-  const double magnitude = analysis.gravity.norm();
-  const Vec3 direction = analysis.gravity / magnitude;
-  deck << "*HEADING\nself-weight\n*INCLUDE, INPUT=" << analysis.mesh.filename().string() << "\n*NSET, NSET=CLAMPED\n";
+  // What is held: its total reaction is printed.
+  deck << "*HEADING\ntest\n*INCLUDE, INPUT=" << analysis.mesh.filename().string() << "\n*NSET, NSET=HELD\n";
   for (const std::uint32_t n : analysis.clamped) deck << n + 1 << "\n";
-  deck << "*BOUNDARY\nCLAMPED, 1, 3\n"
-       << "*MATERIAL, NAME=M\n*ELASTIC\n"
+  for (const AtNode& d : analysis.displacements) deck << d.node + 1 << "\n";
+  deck << "*MATERIAL, NAME=M\n*ELASTIC\n"
        << analysis.material.young << ", " << analysis.material.poisson << "\n*DENSITY\n"
-       << analysis.material.density << "\n*SOLID SECTION, ELSET=EALL, MATERIAL=M\n"
-       << "*STEP\n*STATIC\n*DLOAD\nEALL, GRAV, " << magnitude << ", " << direction.x() << ", " << direction.y() << ", "
-       << direction.z() << "\n*NODE PRINT, NSET=NALL\nU\n*NODE PRINT, NSET=CLAMPED, TOTALS=ONLY\nRF\n*END STEP\n";
+       << analysis.material.density << "\n*SOLID SECTION, ELSET=EALL, MATERIAL=M\n*STEP\n*STATIC\n*BOUNDARY\n";
+  for (const std::uint32_t n : analysis.clamped) deck << n + 1 << ", 1, 3\n";
+  for (const AtNode& d : analysis.displacements)
+    for (int k = 0; k < 3; ++k) deck << d.node + 1 << ", " << k + 1 << ", " << k + 1 << ", " << d.value[k] << "\n";
+  if (const double magnitude = analysis.gravity.norm(); magnitude > 0) {
+    const Vec3 direction = analysis.gravity / magnitude;
+    deck << "*DLOAD\nEALL, GRAV, " << magnitude << ", " << direction.x() << ", " << direction.y() << ", "
+         << direction.z() << "\n";
+  }
+  if (!analysis.forces.empty()) deck << "*CLOAD\n";
+  for (const AtNode& f : analysis.forces)
+    for (int k = 0; k < 3; ++k)
+      if (f.value[k] != 0) deck << f.node + 1 << ", " << k + 1 << ", " << f.value[k] << "\n";
+  deck << "*NODE PRINT, NSET=NALL\nU\n*NODE PRINT, NSET=HELD, TOTALS=ONLY\nRF\n*END STEP\n";
 }
 
 // Blocks of the .dat file: a title that begins with a word, a blank line, rows of numbers.

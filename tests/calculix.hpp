@@ -1,4 +1,5 @@
-// Runs the real CalculiX on an INP file, for tests: a linear static analysis of a part under its own weight.
+// Runs the real CalculiX on an INP file, for tests: a linear static analysis of a part under its own weight, forces on
+// nodes and prescribed displacements.
 #pragma once
 
 #include "preproc/mesh/tet_mesh.hpp"
@@ -19,11 +20,18 @@ struct Material {
   double density;
 };
 
+struct AtNode {
+  std::uint32_t node;  // by index from 0
+  Vec3 value;
+};
+
 struct Analysis {
   std::filesystem::path mesh;          // an INP file, taken in by *INCLUDE
   std::vector<std::uint32_t> clamped;  // nodes that do not move, by index from 0
   Material material;
-  Vec3 gravity;  // acceleration
+  Vec3 gravity = Vec3::Zero();        // acceleration; zero for none
+  std::vector<AtNode> displacements;  // prescribed
+  std::vector<AtNode> forces;
 };
 
 struct Solution {

@@ -1,8 +1,8 @@
 // The volume stage beside its peers, on surfaces given as files.
 //
 //   benchmark_volume table SURFACE...    one table per surface: TetGen and Gmsh alone, and ours at several settings
-//   benchmark_volume corpus FOLDER       every closed mesh in a folder, repaired and simplified to half its triangles:
-//                                        what came out beside what the surface allows
+//   benchmark_volume corpus FOLDER       every closed mesh in a folder, repaired and simplified to half its triangles
+//                                        (or with its own): what came out beside what the surface allows
 //
 // Seconds are processor time of this process and its children, on one thread, of the whole stage: bounds, points,
 // TetGen in its child with the files between, optimisation. "x" is that over TetGen's own call in the same run.
@@ -110,14 +110,24 @@ void table(const std::filesystem::path& file) {
   std::printf("peak memory: %.0f MB\n\n", std::max(peak_megabytes(RUSAGE_SELF), peak_megabytes(RUSAGE_CHILDREN)));
 }
 
+// Half the triangles, or where no valid surface of that size can be had, the repaired input's own.
+PipelineResult mesh_of(const SurfaceMesh& scan) {
+  PipelineOptions options;
+  options.tetrahedralize->tetgen.time = std::chrono::seconds(60);
+  options.simplify->size = FaceRatio{0.5};
+  try {
+    return run_pipeline(scan, options);
+  } catch (const NotMeshable&) {
+    options.simplify.reset();
+    return run_pipeline(scan, options);
+  }
+}
+
 // One line of the corpus; returns whether the quality asked for was reached, nothing where there is no mesh.
 std::optional<bool> corpus_row(const std::filesystem::path& file) {
   const std::string name = file.filename().string();
   try {
-    PipelineOptions options;
-    options.simplify->size = FaceRatio{0.5};
-    options.tetrahedralize->tetgen.time = std::chrono::seconds(60);
-    const PipelineResult result = run_pipeline(read_surface(file), options);
+    const PipelineResult result = mesh_of(read_surface(file));
     const SurfaceBound bound = surface_bound(result.surface);
     const TetSummary m = measure_tetrahedra(*result.volume_mesh);
     const double wanted = std::min(24.0, 0.9 * bound.min_dihedral_deg);
