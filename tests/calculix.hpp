@@ -29,9 +29,9 @@ struct Analysis {
   std::filesystem::path mesh;          // an INP file, taken in by *INCLUDE
   std::vector<std::uint32_t> clamped;  // nodes that do not move, by index from 0
   Material material;
-  Vec3 gravity = Vec3::Zero();        // acceleration; zero for none
-  std::vector<AtNode> displacements;  // prescribed
-  std::vector<AtNode> forces;
+  Vec3 gravity = Vec3::Zero();          // acceleration; zero for none
+  std::vector<AtNode> displacements{};  // prescribed
+  std::vector<AtNode> forces{};
 };
 
 struct Solution {
