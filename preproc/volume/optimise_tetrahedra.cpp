@@ -67,13 +67,17 @@ class Optimisation {
     return least;
   }
 
-  void report(double fraction) const { progress_("optimise", fraction); }
+  void report(double fraction) {
+    fraction_ = fraction;
+    progress_("optimise", fraction);
+  }
 
   // Looks at the clock and for an interrupt now and then only.
   bool time_is_up() {
     if (result_.stopped_by_time) return true;
     if (++moves_ % 512 != 0) return false;
     if (options_.time_limit && Clock::now() - start_ > *options_.time_limit) result_.stopped_by_time = true;
+    if (moves_ % 65536 == 0) report(fraction_);
     return result_.stopped_by_time;
   }
 
@@ -200,6 +204,7 @@ class Optimisation {
   std::vector<std::uint32_t> around_;
   StarFaces faces_;
   std::size_t moves_ = 0;
+  double fraction_ = 0;
 };
 
 }  // namespace

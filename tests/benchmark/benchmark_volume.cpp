@@ -110,6 +110,36 @@ void table(const std::filesystem::path& file) {
   std::printf("peak memory: %.0f MB\n\n", std::max(peak_megabytes(RUSAGE_SELF), peak_megabytes(RUSAGE_CHILDREN)));
 }
 
+// Why the worst element is bad: whether the mesher had no choice there.
+std::string worst_place(const PipelineResult& result) {
+  const TetMesh& mesh = *result.volume_mesh;
+  std::size_t worst = 0;
+  double least = 180;
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+    const Tetrahedron& c = mesh.tetrahedra[t];
+    const double angle =
+        measure_tetrahedron(mesh.nodes[c[0]], mesh.nodes[c[1]], mesh.nodes[c[2]], mesh.nodes[c[3]]).min_dihedral_deg;
+    if (angle >= least) continue;
+    least = angle;
+    worst = t;
+  }
+  const Tetrahedron& c = mesh.tetrahedra[worst];
+  std::size_t on_surface = 0;
+  double longest = 0, largest_area = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    on_surface += c[k] < result.surface.vertices.size();
+    const Vec3 &p = mesh.nodes[c[k]], &q = mesh.nodes[c[(k + 1) % 4]], &r = mesh.nodes[c[(k + 2) % 4]];
+    longest = std::max({longest, (q - p).norm(), (r - p).norm()});
+    largest_area = std::max(largest_area, (q - p).cross(r - p).norm());
+  }
+  const Vec3& a = mesh.nodes[c[0]];
+  const double volume = (mesh.nodes[c[1]] - a).cross(mesh.nodes[c[2]] - a).dot(mesh.nodes[c[3]] - a);
+  char text[160];
+  std::snprintf(text, sizeof text, "the worst element has %zu nodes on the surface and is %.2f of its edge thick",
+                on_surface, volume / largest_area / longest);
+  return text;
+}
+
 // Half the triangles, or where no valid surface of that size can be had, the repaired input's own.
 PipelineResult mesh_of(const SurfaceMesh& scan) {
   PipelineOptions options;
@@ -134,7 +164,8 @@ std::optional<bool> corpus_row(const std::filesystem::path& file) {
     const bool reached = m.min_dihedral_deg >= wanted;
     std::printf("| %s | %zu | %zu | %.1f–%.1f° | %.3f / %.3f | %.1f° | %s |\n", name.c_str(),
                 result.surface.triangles.size(), m.tetrahedra, m.min_dihedral_deg, m.max_dihedral_deg,
-                m.scaled_jacobian.min, m.scaled_jacobian.mean, bound.min_dihedral_deg, reached ? "yes" : "**no**");
+                m.scaled_jacobian.min, m.scaled_jacobian.mean, bound.min_dihedral_deg,
+                reached ? "yes" : ("**no**: " + worst_place(result)).c_str());
     std::fflush(stdout);
     return reached;
   } catch (const Error& error) {
