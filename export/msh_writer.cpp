@@ -1,188 +1,45 @@
+#include "export/gmsh_module.hpp"
 #include "export/msh.hpp"
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/output_file.hpp"
 
-#include <gmsh.h>
-
-#include <array>
-#include <mutex>
-#include <numeric>
-#include <stdlib.h>  // mkdtemp
-#include <string>
+#include <dlfcn.h>
+#include <system_error>
 
 namespace scan2fea {
 namespace {
 
-// Gmsh's element types.
-constexpr int triangle_3 = 2;
-constexpr int tetrahedron_4 = 4;
-constexpr int triangle_6 = 9;
-constexpr int tetrahedron_10 = 11;
+namespace fs = std::filesystem;
 
-// Position in our order of each of Gmsh's mid-edge nodes: the last two are swapped.
-constexpr std::array<std::size_t, 6> gmsh_mid_edges{0, 1, 2, 3, 5, 4};
-
-// Gmsh from initialize to finalize; one at a time, since its state is global.
-class GmshSession {
- public:
-  GmshSession() : lock_(mutex()) {
-    gmsh::initialize(0, nullptr, false);  // no configuration files: output must not depend on the user's
-    gmsh::option::setNumber("General.Terminal", 0);
-    gmsh::option::setNumber("General.NumThreads", 1);
+// Beside the running executable, or where it was installed. Loaded once and kept: the SDK does not survive unloading.
+WriteByGmsh* load_writer() {
+  std::error_code error;
+  const fs::path beside = fs::read_symlink("/proc/self/exe", error).parent_path() / gmsh_module_name;
+  const fs::path installed = fs::path(SCAN2FEA_INSTALLED_MODULE_FOLDER) / gmsh_module_name;
+  const fs::path& module = !error && fs::exists(beside, error) ? beside : installed;
+  void* handle = ::dlopen(module.c_str(), RTLD_NOW | RTLD_LOCAL);
+  void* function = handle != nullptr ? ::dlsym(handle, write_by_gmsh_name) : nullptr;
+  if (function == nullptr) {
+    const char* reason = ::dlerror();
+    throw IoError({.what = "MSH files cannot be written: the Gmsh module does not load",
+                   .where = module.string(),
+                   .value = reason != nullptr ? reason : "",
+                   .limit = {},
+                   .advice = "install the module beside the command"});
   }
-  ~GmshSession() {
-    try {
-      gmsh::finalize();
-    } catch (...) {  // nothing to be done, and a destructor must not throw
-    }
-  }
-  GmshSession(const GmshSession&) = delete;
-  GmshSession& operator=(const GmshSession&) = delete;
-
- private:
-  static std::mutex& mutex() {
-    static std::mutex instance;
-    return instance;
-  }
-  std::lock_guard<std::mutex> lock_;
-};
-
-// Gmsh throws std::string, int or standard exceptions, by version and function.
-std::string current_exception_text() {
-  try {
-    throw;
-  } catch (const std::string& text) {
-    return text;
-  } catch (const std::exception& error) {
-    return error.what();
-  } catch (...) {
-    return "unknown error of Gmsh";
-  }
-}
-
-// A folder of our own that holds a link `mesh.msh` to the file: Gmsh tells the format by the extension, in lower case.
-class PrivateLink {
- public:
-  explicit PrivateLink(const std::filesystem::path& file) {
-    std::string pattern = (std::filesystem::temp_directory_path() / "scan2fea-XXXXXX").string();
-    if (!mkdtemp(pattern.data()))
-      throw IoError(
-          {.what = "cannot make a temporary folder", .where = pattern, .value = {}, .limit = {}, .advice = {}});
-    folder_ = pattern;
-    std::filesystem::create_symlink(std::filesystem::absolute(file), path());
-  }
-  ~PrivateLink() {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-  }
-  PrivateLink(const PrivateLink&) = delete;
-  PrivateLink& operator=(const PrivateLink&) = delete;
-
-  std::filesystem::path path() const { return folder_ / "mesh.msh"; }
-
- private:
-  std::filesystem::path folder_;
-};
-
-std::vector<std::size_t> tags(std::size_t count) {
-  std::vector<std::size_t> result(count);
-  std::iota(result.begin(), result.end(), std::size_t{1});
-  return result;
-}
-
-void add_nodes(const TetMesh& mesh, const std::vector<bool>& chosen, int dimension, int entity) {
-  std::vector<std::size_t> node_tags;
-  std::vector<double> coordinates;
-  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
-    if (!chosen[n]) continue;
-    node_tags.push_back(n + 1);
-    const Vec3& p = mesh.nodes[n];
-    coordinates.insert(coordinates.end(), {p.x(), p.y(), p.z()});
-  }
-  if (!node_tags.empty()) gmsh::model::mesh::addNodes(dimension, entity, node_tags, coordinates);
-}
-
-std::vector<std::size_t> tetrahedron_nodes(const TetMesh& mesh) {
-  std::vector<std::size_t> nodes;
-  nodes.reserve(mesh.tetrahedra.size() * (mesh.order() == 2 ? 10 : 4));
-  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
-    for (const std::uint32_t n : mesh.tetrahedra[t]) nodes.push_back(std::size_t{n} + 1);
-    if (mesh.order() == 2)
-      for (const std::size_t e : gmsh_mid_edges) nodes.push_back(std::size_t{mesh.mid_edge_nodes[t][e]} + 1);
-  }
-  return nodes;
-}
-
-std::uint32_t mid_edge_node(const TetMesh& mesh, std::uint32_t tetrahedron, std::uint32_t a, std::uint32_t b) {
-  const Tetrahedron& corners = mesh.tetrahedra[tetrahedron];
-  std::size_t e = 0;
-  for (; e + 1 < tetrahedron_edges.size(); ++e) {
-    const std::uint32_t p = corners[static_cast<std::size_t>(tetrahedron_edges[e][0])];
-    const std::uint32_t q = corners[static_cast<std::size_t>(tetrahedron_edges[e][1])];
-    if ((p == a && q == b) || (p == b && q == a)) break;
-  }
-  return mesh.mid_edge_nodes[tetrahedron][e];
-}
-
-// Corners counter-clockwise seen from outside, then the nodes of the edges 12, 23, 31.
-std::vector<std::size_t> triangle_nodes(const TetMesh& mesh) {
-  std::vector<std::size_t> nodes;
-  nodes.reserve(mesh.boundary.size() * (mesh.order() == 2 ? 6 : 3));
-  for (const BoundaryFace f : mesh.boundary) {
-    const Triangle corners = boundary_triangle(mesh, f);
-    for (const std::uint32_t n : corners) nodes.push_back(std::size_t{n} + 1);
-    if (mesh.order() == 2)
-      for (std::size_t k = 0; k < 3; ++k)
-        nodes.push_back(std::size_t{mid_edge_node(mesh, f.tetrahedron, corners[k], corners[(k + 1) % 3])} + 1);
-  }
-  return nodes;
-}
-
-void build_model(const TetMesh& mesh, MshVersion version) {
-  gmsh::model::add("scan2fea");
-  const int surface = gmsh::model::addDiscreteEntity(2);
-  const int volume = gmsh::model::addDiscreteEntity(3, -1, {surface});
-  const std::vector<std::size_t> triangles = triangle_nodes(mesh);
-  // Version 4.1 files a node under the entity it lies on. In 2.2 nodes have no entity, and Gmsh renumbers them entity
-  // by entity: all go to one, to keep their numbers.
-  std::vector<bool> on_surface(mesh.nodes.size(), false);
-  if (version == MshVersion::v4_1)
-    for (const std::size_t tag : triangles) on_surface[tag - 1] = true;
-  add_nodes(mesh, on_surface, 2, surface);
-  on_surface.flip();
-  add_nodes(mesh, on_surface, 3, volume);
-
-  const std::size_t tetrahedra = mesh.tetrahedra.size();
-  std::vector<std::size_t> triangle_tags(mesh.boundary.size());
-  std::iota(triangle_tags.begin(), triangle_tags.end(), tetrahedra + 1);
-  gmsh::model::mesh::addElementsByType(volume, mesh.order() == 2 ? tetrahedron_10 : tetrahedron_4, tags(tetrahedra),
-                                       tetrahedron_nodes(mesh));
-  if (!triangles.empty())
-    gmsh::model::mesh::addElementsByType(surface, mesh.order() == 2 ? triangle_6 : triangle_3, triangle_tags,
-                                         triangles);
-  gmsh::model::setPhysicalName(2, gmsh::model::addPhysicalGroup(2, {surface}), "SALL");
-  gmsh::model::setPhysicalName(3, gmsh::model::addPhysicalGroup(3, {volume}), "EALL");
+  return reinterpret_cast<WriteByGmsh*>(function);
 }
 
 }  // namespace
 
 void write_msh(const TetMesh& mesh, const std::filesystem::path& file, const MshOptions& options) {
+  static WriteByGmsh* const write_by_gmsh = load_writer();
   OutputFile output(file);
-  try {
-    const PrivateLink link(output.temporary_path());
-    const GmshSession session;
-    build_model(mesh, options.version);
-    gmsh::option::setNumber("Mesh.MshFileVersion", options.version == MshVersion::v2_2 ? 2.2 : 4.1);
-    gmsh::option::setNumber("Mesh.Binary", 0);
-    gmsh::option::setNumber("Mesh.SaveAll", 0);
-    gmsh::write(link.path().string());
-  } catch (...) {
-    throw IoError({.what = "Gmsh cannot write the file",
-                   .where = file.string(),
-                   .value = current_exception_text(),
-                   .limit = {},
-                   .advice = {}});
-  }
+  std::string failure;
+  write_by_gmsh(mesh, output.temporary_path(), options.version, failure);
+  if (!failure.empty())
+    throw IoError(
+        {.what = "Gmsh cannot write the file", .where = file.string(), .value = failure, .limit = {}, .advice = {}});
   output.commit();
 }
 

@@ -113,14 +113,18 @@ PipelineResult run_pipeline(SurfaceMesh scan, const PipelineOptions& options, co
   StageLog log(result.stages, listener);
   if (options.repair)
     log.run("repair", [&](StageRecord& record) { describe(repair(scan, *options.repair, progress), record); });
-  result.scan = scan;
-  result.surface = std::move(scan);
+  result.scan = std::move(scan);
+  // Scans are large: none is copied that the next stage reads only.
+  if (options.enrich || !options.simplify) result.surface = result.scan;
   if (options.enrich)
     log.run("enrich",
             [&](StageRecord& record) { describe(enrich(result.surface, *options.enrich, progress), record); });
   if (options.simplify)
-    log.run("simplify",
-            [&](StageRecord& record) { describe(simplify(result.surface, *options.simplify, progress), record); });
+    log.run("simplify", [&](StageRecord& record) {
+      describe(options.enrich ? simplify(result.surface, *options.simplify, progress)
+                              : simplify(result.scan, result.surface, *options.simplify, progress),
+               record);
+    });
   if (options.tetrahedralize) {
     log.run("tetrahedralize", [&](StageRecord& record) {
       TetrahedralizeResult filled = tetrahedralize(result.surface, *options.tetrahedralize, progress);

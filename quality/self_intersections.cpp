@@ -1,5 +1,6 @@
 #include "quality/self_intersections.hpp"
 
+#include "quality/face_blocks.hpp"
 #include "quality/triangle_tree.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -8,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <numeric>
 
 namespace scan2fea {
 namespace {
@@ -23,11 +23,6 @@ Point point(const Vec3& p) {
 
 Corners corners_of(const std::vector<Vec3>& points, const Triangle& t) {
   return {point(points[t[0]]), point(points[t[1]]), point(points[t[2]])};
-}
-
-BoundingBox box_of(const SurfaceMesh& mesh, const Triangle& t) {
-  const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
-  return {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
 }
 
 // Whether a plane through the triangle, or one of its edges' walls along a coordinate axis, has all `points` strictly
@@ -170,7 +165,7 @@ std::vector<FacePair> find_pairs(const SurfaceMesh& mesh, std::span<const std::u
       const auto f = static_cast<std::uint32_t>(i);
       const Triangle& t = mesh.triangles[f];
       if (is_collinear(mesh.vertices, t)) continue;
-      tree.for_each_overlap(box_of(mesh, t), [&](std::uint32_t other) {
+      tree.for_each_overlap(box_of_face(mesh, f), [&](std::uint32_t other) {
         if (named[f] != 0 && other <= f) return;  // that pair is found from its other face
         if (faces_intersect(mesh.vertices, mesh.triangles[std::min(f, other)], mesh.triangles[std::max(f, other)]))
           found[block].push_back({std::min(f, other), std::max(f, other)});
@@ -180,6 +175,25 @@ std::vector<FacePair> find_pairs(const SurfaceMesh& mesh, std::span<const std::u
   for (const auto& block : found) pairs.insert(pairs.end(), block.begin(), block.end());
   std::sort(pairs.begin(), pairs.end());
   return pairs;
+}
+
+// Pairs of a face of block b and one of block c, which may be b itself.
+void find_pairs_of_blocks(const SurfaceMesh& mesh, const FaceBlocks& blocks, std::size_t b, std::size_t c,
+                          const std::vector<char>& is_flat, std::vector<FacePair>& pairs) {
+  const std::span<const std::uint32_t> faces = blocks.faces(b), others = blocks.faces(c);
+  std::array<BoundingBox, FaceBlocks::block_size> boxes;
+  for (std::size_t j = 0; j < others.size(); ++j) boxes[j] = box_of_face(mesh, others[j]);
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const std::uint32_t f = faces[i];
+    const BoundingBox box = b == c ? boxes[i] : box_of_face(mesh, f);
+    if (is_flat[f] || !boxes_meet(box, blocks.box(c))) continue;
+    for (std::size_t j = b == c ? i + 1 : 0; j < others.size(); ++j) {
+      const std::uint32_t g = others[j];
+      if (is_flat[g] || !boxes_meet(box, boxes[j])) continue;
+      const auto [low, high] = std::minmax(f, g);
+      if (faces_intersect(mesh.vertices, mesh.triangles[low], mesh.triangles[high])) pairs.push_back({low, high});
+    }
+  }
 }
 
 }  // namespace
@@ -208,9 +222,25 @@ bool faces_intersect(const std::vector<Vec3>& points, const Triangle& s, const T
 }
 
 std::vector<FacePair> find_self_intersections(const SurfaceMesh& mesh) {
-  std::vector<std::uint32_t> all(mesh.triangles.size());
-  std::iota(all.begin(), all.end(), 0U);
-  return find_pairs(mesh, all, std::vector<char>(mesh.triangles.size(), 1));
+  const FaceBlocks blocks(mesh);
+  std::vector<char> is_flat(mesh.triangles.size());
+  tbb::parallel_for(std::size_t{0}, is_flat.size(),
+                    [&](std::size_t f) { is_flat[f] = is_collinear(mesh.vertices, mesh.triangles[f]); });
+
+  // Fixed runs of blocks, gathered in their order: the same result for any number of threads.
+  constexpr std::size_t run_length = 64;
+  std::vector<std::vector<FacePair>> found((blocks.count() + run_length - 1) / run_length);
+  tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t run) {
+    const std::size_t end = std::min(blocks.count(), (run + 1) * run_length);
+    for (std::size_t b = run * run_length; b < end; ++b)
+      blocks.for_each_meeting(b, [&](std::size_t c) { find_pairs_of_blocks(mesh, blocks, b, c, is_flat, found[run]); });
+  });
+  std::vector<FacePair> pairs;
+  for (const auto& run : found) pairs.insert(pairs.end(), run.begin(), run.end());
+  for (std::uint32_t f = 0; f < is_flat.size(); ++f)
+    if (is_flat[f]) pairs.push_back({f, f});
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
 }
 
 std::vector<FacePair> find_self_intersections(const SurfaceMesh& mesh, std::span<const std::uint32_t> faces) {

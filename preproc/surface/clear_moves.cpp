@@ -18,12 +18,6 @@ constexpr double smallest_turn_cosine = 0.5;
 // 1 / eta of a face that a move may leave, unless it was worse before: about 12 degrees.
 constexpr double least_quality = 0.35;
 
-BoundingBox box_of(const SurfaceMesh& mesh, std::uint32_t f) {
-  const Triangle& t = mesh.triangles[f];
-  const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
-  return {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
-}
-
 class ClearMover {
  public:
   explicit ClearMover(SurfaceMesh& mesh) : mesh_(mesh), stars_(mesh), boxes_(mesh) {}
@@ -39,7 +33,7 @@ class ClearMover {
       mesh_.vertices[v] = before;
       return false;
     }
-    for (const std::uint32_t corner : corners) boxes_.set(corner / 3, box_of(mesh_, corner / 3));
+    for (const std::uint32_t corner : corners) boxes_.set(corner / 3, box_of_face(mesh_, corner / 3));
     return true;
   }
 
@@ -72,7 +66,7 @@ class ClearMover {
       const std::uint32_t f = corners[i] / 3;
       if (is_collinear(mesh_.vertices, mesh_.triangles[f])) return false;
       for (std::size_t j = 0; j < i; ++j) test(f, corners[j] / 3);
-      boxes_.for_each_overlap(box_of(mesh_, f), [&](std::uint32_t g) {
+      boxes_.for_each_overlap(box_of_face(mesh_, f), [&](std::uint32_t g) {
         if (!in_star(g)) test(f, g);
       });
     }

@@ -1,7 +1,5 @@
 #include "preproc/surface/face_boxes.hpp"
 
-#include "quality/triangle_tree.hpp"
-
 #include <bit>
 #include <limits>
 
@@ -20,13 +18,11 @@ FaceBoxes::FaceBoxes(const SurfaceMesh& mesh)
     : leaves_(std::bit_ceil(mesh.triangles.size())),
       nodes_(2 * leaves_, no_box()),
       leaf_of_face_(mesh.triangles.size()) {
-  face_of_leaf_ = TriangleTree(mesh).leaf_order();
+  face_of_leaf_ = FaceBlocks(mesh).order();
   for (std::size_t leaf = 0; leaf < face_of_leaf_.size(); ++leaf) {
     const std::uint32_t f = face_of_leaf_[leaf];
     leaf_of_face_[f] = static_cast<std::uint32_t>(leaf);
-    const Triangle& t = mesh.triangles[f];
-    const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
-    nodes_[leaves_ + leaf] = {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
+    nodes_[leaves_ + leaf] = box_of_face(mesh, f);
   }
   for (std::size_t node = leaves_; node-- > 1;) {
     const BoundingBox &left = nodes_[2 * node], &right = nodes_[2 * node + 1];

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "preproc/mesh/surface_mesh.hpp"
+#include "quality/face_blocks.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -25,7 +26,7 @@ class FaceBoxes {
   template <class Visit>
   void for_each_overlap(const BoundingBox& box, Visit visit) const {
     const auto descend = [&](const auto& self, std::size_t node) -> void {
-      if (!meet(nodes_[node], box)) return;
+      if (!boxes_meet(nodes_[node], box)) return;
       if (node >= leaves_) return visit(face_of_leaf_[node - leaves_]);
       self(self, 2 * node);
       self(self, 2 * node + 1);
@@ -34,9 +35,6 @@ class FaceBoxes {
   }
 
  private:
-  static bool meet(const BoundingBox& a, const BoundingBox& b) {
-    return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
-  }
   void renew_ancestors(std::size_t node);
 
   std::size_t leaves_;              // a power of two; node 1 is the root, leaf i is node leaves_ + i

@@ -46,8 +46,10 @@ void sample_triangle(const ReferenceSurface& scan, std::uint32_t f, int n, Surfa
   }
 }
 
-SurfaceSamples all_samples(const ReferenceSurface& scan, const std::vector<int>& split) {
+SurfaceSamples all_samples(const ReferenceSurface& scan, const std::vector<int>& split, std::size_t count) {
   SurfaceSamples out;
+  out.samples.reserve(count);
+  out.vertex.reserve(count);
   std::vector<double> vertex_weight(scan.mesh.vertices.size(), 0);
   for (std::uint32_t f = 0; f < scan.mesh.triangles.size(); ++f) {
     const Triangle& t = scan.mesh.triangles[f];
@@ -108,7 +110,7 @@ SurfaceSamples sample_surface(const ReferenceSurface& scan, double longest_edge,
     const auto n = static_cast<std::size_t>(split[f]);
     count += n * n + (n + 1) * (n + 2) / 2 - 3;
   }
-  return count <= most ? all_samples(scan, split) : thinned_samples(scan, most);
+  return count <= most ? all_samples(scan, split, count) : thinned_samples(scan, most);
 }
 
 }  // namespace scan2fea

@@ -22,8 +22,9 @@ using Range = tbb::blocked_range<std::size_t>;
 
 // A step of more than this part of the smallest edge or height around a vertex could turn a triangle over.
 constexpr double longest_step = 0.3;
-// More samples a face than this do not improve the fit.
-constexpr std::size_t most_samples_per_face = 24;
+// More samples a face than this do not improve the fit; on a scan far finer than the mesh they would take its time and
+// memory.
+constexpr std::size_t most_samples_per_face = 12;
 // Scan triangles longer than this part of the mean edge are subdivided, so that each face gets samples.
 constexpr double longest_scan_edge = 0.7;
 // Residuals beyond this part of the mean edge are suspected of a wrong location.
@@ -66,6 +67,15 @@ ByFace sort_by_face(const std::vector<Location>& locations, std::size_t faces) {
   std::vector<std::uint32_t> next(by.first.begin(), by.first.end() - 1);
   for (std::uint32_t s = 0; s < locations.size(); ++s) by.order[next[locations[s].face]++] = s;
   return by;
+}
+
+// One array after the other: a copy of all of them at once would be the peak of a large scan's memory.
+template <class Item>
+void reorder(std::vector<Item>& items, const std::vector<std::uint32_t>& order) {
+  std::vector<Item> sorted;
+  sorted.reserve(order.size());
+  for (const std::uint32_t i : order) sorted.push_back(items[i]);
+  items = std::move(sorted);
 }
 
 class Fitter {
@@ -164,18 +174,9 @@ class Fitter {
   // Into the order of the faces, which they seldom leave: memory is then read in order from now on.
   void sort_samples() {
     const ByFace by_face = sort_by_face(locations_, mesh_.triangles.size());
-    SurfaceSamples sorted;
-    std::vector<Location> locations;
-    sorted.samples.reserve(locations_.size());
-    sorted.vertex.reserve(locations_.size());
-    locations.reserve(locations_.size());
-    for (const std::uint32_t s : by_face.order) {
-      sorted.samples.push_back(forward_.samples[s]);
-      sorted.vertex.push_back(forward_.vertex[s]);
-      locations.push_back(locations_[s]);
-    }
-    forward_ = std::move(sorted);
-    locations_ = std::move(locations);
+    reorder(forward_.samples, by_face.order);
+    reorder(forward_.vertex, by_face.order);
+    reorder(locations_, by_face.order);
   }
 
   void locate_faces(const ByFace& by_face);

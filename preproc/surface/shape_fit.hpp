@@ -54,7 +54,7 @@ struct ShapeFitResult {
 // does not see an inverted triangle. Throws WrongUsage for options out of range, InvalidInput for a mesh or scan
 // without triangles, Cancelled. Deterministic for any number of threads. Not guaranteed: freedom from
 // self-intersections and inverted triangles (see guard.hpp), exact volume (see preserve_volume.hpp).
-// Cost per round: O(samples) with a small constant (the samples are capped at 24 a face), a few ms per 10,000 faces
+// Cost per round: O(samples) with a small constant (the samples are capped at 12 a face), a few ms per 10,000 faces
 // and sweep.
 ShapeFitResult optimise_shape_and_fit(SurfaceMesh& mesh, const ReferenceSurface& scan,
                                       const ShapeFitOptions& options = {}, const Progress& progress = {});

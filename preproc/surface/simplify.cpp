@@ -229,11 +229,11 @@ double wanted_faces(const TargetSize& size, const ReferenceSurface& scan) {
 
 }  // namespace
 
-SimplifyResult simplify(SurfaceMesh& mesh, const SimplifyOptions& options, const Progress& progress) {
+SimplifyResult simplify(const SurfaceMesh& mesh, SurfaceMesh& surface, const SimplifyOptions& options,
+                        const Progress& progress) {
   const ReferenceSurface scan(mesh);
   SimplifyResult result;
   result.faces_before = mesh.triangles.size();
-  SurfaceMesh surface;
   if (const auto* bound = std::get_if<LargestDeviation>(&options.size)) {
     require_positive(bound->distance, "the deviation");
     surface = make_surface_within(scan, bound->distance, options, result, progress);
@@ -242,6 +242,12 @@ SimplifyResult simplify(SurfaceMesh& mesh, const SimplifyOptions& options, const
     require_positive(faces, "the number of triangles");
     surface = make_surface(scan, std::max(faces, fewest_faces), options, result, progress);
   }
+  return result;
+}
+
+SimplifyResult simplify(SurfaceMesh& mesh, const SimplifyOptions& options, const Progress& progress) {
+  SurfaceMesh surface;
+  const SimplifyResult result = simplify(mesh, surface, options, progress);
   mesh = std::move(surface);
   return result;
 }

@@ -65,4 +65,8 @@ struct SimplifyResult {
 // Not guaranteed: a deviation asked for is met by samples of both surfaces, not by a bound on all points.
 SimplifyResult simplify(SurfaceMesh& mesh, const SimplifyOptions& options = {}, const Progress& progress = {});
 
+// The same for those who need the scan afterwards, to compare with: a copy of it less.
+SimplifyResult simplify(const SurfaceMesh& scan, SurfaceMesh& surface, const SimplifyOptions& options,
+                        const Progress& progress = {});
+
 }  // namespace scan2fea
