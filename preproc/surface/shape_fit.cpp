@@ -219,15 +219,26 @@ class Fitter {
     double sum = 0;
     double total = 0;
     double largest = 0;
-    for (std::size_t s = 0; s < locations_.size(); ++s) {
-      const double squared = (forward_.samples[s].point - point_at(mesh_, locations_[s])).squaredNorm();
-      sum += forward_.samples[s].weight * squared;
-      total += forward_.samples[s].weight;
+    const auto add = [&](const Vec3& p, const Vec3& q, double weight) {
+      const double squared = (p - q).squaredNorm();
+      sum += weight * squared;
+      total += weight;
       largest = std::max(largest, squared);
+    };
+    const auto mean = [&] { return total > 0 ? std::sqrt(sum / total) : 0; };
+    for (std::size_t s = 0; s < locations_.size(); ++s) {
+      add(forward_.samples[s].point, point_at(mesh_, locations_[s]), forward_.samples[s].weight);
     }
-    result.rms_distance = total > 0 ? std::sqrt(sum / total) : 0;
+    result.rms_distance = mean();
+    sum = total = 0;
+    for (std::size_t s = 0; s < on_scan_.size(); ++s) {
+      const auto f = static_cast<std::uint32_t>(s / face_samples.size());
+      add(point_at(mesh_, {f, false, face_samples[s % face_samples.size()]}), point_at(scan_.mesh, on_scan_[s]),
+          area_vector(mesh_, mesh_.triangles[f]).norm());
+    }
+    result.rms_distance = std::max(result.rms_distance, mean());
     result.largest_distance = std::sqrt(largest);
-    result.samples = locations_.size();
+    result.samples = locations_.size() + on_scan_.size();
   }
 
   double move(std::uint32_t v) {

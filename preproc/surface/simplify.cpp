@@ -8,11 +8,13 @@
 #include "preproc/surface/reference_surface.hpp"
 #include "preproc/surface/refined_scan.hpp"
 #include "preproc/surface/shape_fit.hpp"
+#include "preproc/surface/star_objective.hpp"
 #include "quality/deviation.hpp"
 #include "quality/validity.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace scan2fea {
@@ -24,22 +26,22 @@ constexpr double fewest_faces = 4;
 // Over the wanted edge length.
 constexpr double longest_edge_to_contract = 1;
 
-// What an effort buys.
+// What an effort buys. Trials differ by a little in the sizing, which lays another lattice: of several, the distances
+// to the scan in the tightest folds differ by a third, so the best of them is worth having where time is no matter.
 struct FitPlan {
-  int first_rounds;  // with a loose fit, while the connectivity still changes
   int rounds;
-  bool both_sides;  // samples of the result too
-  std::optional<double> lift_tail_of_diagonal;
+  double fidelity_of_diagonal;
+  int trials;
 };
 
 FitPlan plan_of(Effort effort) {
   switch (effort) {
     case Effort::low:
-      return {.first_rounds = 2, .rounds = 4, .both_sides = false, .lift_tail_of_diagonal = {}};
+      return {.rounds = 4, .fidelity_of_diagonal = 0.0013, .trials = 1};
     case Effort::normal:
-      return {.first_rounds = 2, .rounds = 8, .both_sides = false, .lift_tail_of_diagonal = {}};
+      return {.rounds = 8, .fidelity_of_diagonal = 0.0012, .trials = 1};
     case Effort::high:
-      return {.first_rounds = 2, .rounds = 12, .both_sides = true, .lift_tail_of_diagonal = 0.001};
+      return {.rounds = 12, .fidelity_of_diagonal = 0.00105, .trials = 5};
   }
   return {};
 }
@@ -48,6 +50,7 @@ struct Candidate {
   SurfaceMesh mesh;
   std::size_t crossings_mended = 0;
   std::string failure;  // empty where `mesh` is valid
+  ShapeFitResult fit;
 };
 
 std::string describe(const SurfaceDefects& defects) {
@@ -66,33 +69,56 @@ void finish(Candidate& candidate, const ReferenceSurface& scan, const Progress& 
   }
 }
 
-Candidate by_lattice(const ReferenceSurface& scan, double faces, const SimplifyOptions& options,
-                     const Progress& progress) {
+Candidate by_lattice(const ReferenceSurface& scan, double faces, const FitPlan& plan, const SimplifyOptions& options,
+                     double strength_factor, const Progress& progress) {
   LatticeOptions lattice_options;
   lattice_options.sizing.triangles = faces;
   lattice_options.sizing.sizing = options.sizing;
   lattice_options.sizing.gradation = options.gradation;
+  lattice_options.sizing.strength *= strength_factor;
   LatticeResult lattice = remesh_by_lattice(scan.mesh, lattice_options, progress);
-  if (!lattice.failure.empty()) return {.mesh = {}, .crossings_mended = 0, .failure = lattice.failure};
+  if (!lattice.failure.empty()) return {.mesh = {}, .crossings_mended = 0, .failure = lattice.failure, .fit = {}};
 
-  Candidate candidate{.mesh = std::move(lattice.mesh), .crossings_mended = 0, .failure = {}};
-  const FitPlan plan = plan_of(options.effort);
-  ShapeFitOptions loose;
-  loose.fidelity_of_diagonal = 0.003;
-  loose.rounds = plan.first_rounds;
-  loose.nearest_vertex_of_scan_vertex = std::move(lattice.vertex_of_scan_vertex);
-  optimise_shape_and_fit(candidate.mesh, scan, loose, progress);
-  ConnectivityOptions connectivity;
-  connectivity.rounds = 1;
-  connectivity.triangles = static_cast<std::size_t>(std::lround(faces));
-  improve_connectivity(candidate.mesh, lattice.edge_length, connectivity);
+  Candidate candidate{.mesh = std::move(lattice.mesh), .crossings_mended = 0, .failure = {}, .fit = {}};
   ShapeFitOptions fit;
   fit.rounds = plan.rounds;
-  fit.both_sides = plan.both_sides;
-  fit.lift_tail_of_diagonal = plan.lift_tail_of_diagonal;
-  optimise_shape_and_fit(candidate.mesh, scan, fit, progress);
+  fit.fidelity_of_diagonal = plan.fidelity_of_diagonal;
+  fit.nearest_vertex_of_scan_vertex = std::move(lattice.vertex_of_scan_vertex);
+  candidate.fit = optimise_shape_and_fit(candidate.mesh, scan, fit, progress);
   finish(candidate, scan, progress);
   return candidate;
+}
+
+double mean_edge_ratio(const SurfaceMesh& mesh) {
+  double sum = 0;
+  for (const Triangle& t : mesh.triangles) {
+    sum += edge_ratio(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
+  }
+  return sum / static_cast<double>(mesh.triangles.size());
+}
+
+Candidate best_by_lattice(const ReferenceSurface& scan, double faces, const SimplifyOptions& options,
+                          const Progress& progress) {
+  const FitPlan plan = plan_of(options.effort);
+  if (plan.trials == 1) return by_lattice(scan, faces, plan, options, 1, progress);
+  constexpr double strength_step = 0.03;
+  Candidate best;
+  double best_score = std::numeric_limits<double>::infinity();
+  for (int trial = 0; trial < plan.trials; ++trial) {
+    const double strength_factor = 1 + strength_step * (trial - (plan.trials - 1) / 2.0);
+    Candidate candidate = by_lattice(scan, faces, plan, options, strength_factor, progress);
+    if (!candidate.failure.empty()) {
+      if (best.mesh.triangles.empty()) best.failure = candidate.failure;
+      continue;
+    }
+    // All that is to be small, at once.
+    const double score =
+        (mean_edge_ratio(candidate.mesh) - 1) * candidate.fit.rms_distance * candidate.fit.largest_distance;
+    if (score >= best_score) continue;
+    best = std::move(candidate);
+    best_score = score;
+  }
+  return best;
 }
 
 // Where the lattice gives way: contractions towards the same sizing, none of which makes faces meet, then the same fit.
@@ -106,7 +132,7 @@ Candidate by_contraction(const ReferenceSurface& scan, double faces, const Simpl
   sizing.gradation = options.gradation;
   // Long triangles, as CAD makes them, are no start for even ones.
   RefinedScan refined = refine_scan(scan.mesh, compute_sizing_field(scan.mesh, sizing), longest_edge_to_contract);
-  Candidate contracted{.mesh = std::move(refined.mesh), .crossings_mended = 0, .failure = {}};
+  Candidate contracted{.mesh = std::move(refined.mesh), .crossings_mended = 0, .failure = {}, .fit = {}};
   CollapseOptions collapse_options;
   collapse_options.target_faces = static_cast<std::size_t>(std::lround(faces));
   collapse_options.cost = CollapseCost::sized_length;
@@ -133,7 +159,7 @@ Candidate by_collapse(const ReferenceSurface& scan, double faces, const Simplify
                       const Progress& progress) {
   CollapseOptions collapse_options = options.collapse;
   collapse_options.target_faces = static_cast<std::size_t>(std::lround(faces));
-  Candidate candidate{.mesh = scan.mesh, .crossings_mended = 0, .failure = {}};
+  Candidate candidate{.mesh = scan.mesh, .crossings_mended = 0, .failure = {}, .fit = {}};
   collapse(candidate.mesh, collapse_options, progress);
   GuardOptions guard;
   guard.least_angle_deg = 0;
@@ -149,7 +175,7 @@ SurfaceMesh make_surface(const ReferenceSurface& scan, double faces, const Simpl
                          SimplifyResult& result, const Progress& progress) {
   result.method = options.method;
   result.fallback_reason.clear();
-  Candidate candidate = options.method == SimplifyMethod::lattice ? by_lattice(scan, faces, options, progress)
+  Candidate candidate = options.method == SimplifyMethod::lattice ? best_by_lattice(scan, faces, options, progress)
                                                                   : by_collapse(scan, faces, options, progress);
   if (!candidate.failure.empty() && options.method == SimplifyMethod::lattice) {
     result.method = SimplifyMethod::collapse;
