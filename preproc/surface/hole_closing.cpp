@@ -40,40 +40,64 @@ std::vector<std::optional<LargeHole>> find_large_holes(const SurfaceMesh& mesh, 
   return large;
 }
 
+std::optional<PatchShape> plainer(PatchShape shape) {
+  switch (shape) {
+    case PatchShape::Faired:
+      return PatchShape::Membrane;
+    case PatchShape::Membrane:
+      return PatchShape::Triangles;
+    case PatchShape::Triangles:
+      return {};
+  }
+  return {};
+}
+
+// The holes whose patches, appended to the surface with all others, cross something.
+std::vector<std::size_t> find_crossing_patches(SurfaceMesh mesh, const std::vector<Patch>& patches) {
+  const std::size_t face_count = mesh.triangles.size();
+  std::vector<std::size_t> patch_of_face;
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    append_patch(mesh, patches[i]);
+    patch_of_face.resize(mesh.triangles.size() - face_count, i);
+  }
+  std::vector<std::uint32_t> faces(patch_of_face.size());
+  std::iota(faces.begin(), faces.end(), static_cast<std::uint32_t>(face_count));
+  std::vector<std::size_t> crossing;
+  for (const FacePair& pair : find_self_intersections(mesh, faces))
+    for (const std::uint32_t f : {pair.face, pair.other})
+      if (f >= face_count) crossing.push_back(patch_of_face[f - face_count]);
+  std::sort(crossing.begin(), crossing.end());
+  crossing.erase(std::unique(crossing.begin(), crossing.end()), crossing.end());
+  return crossing;
+}
+
 // A patch that comes out crossing something is made again, plainer.
 void fill_holes(SurfaceMesh& mesh, const Twins& twins, RepairResult& result, const Progress& progress) {
   const std::vector<BorderLoop> loops = find_border_loops(mesh, twins);
-  const auto vertex_count = static_cast<std::ptrdiff_t>(mesh.vertices.size());
-  const std::size_t face_count = mesh.triangles.size();
   std::vector<PatchShape> shapes(loops.size(), PatchShape::Faired);
-  std::vector<std::uint32_t> loop_of_face;  // of the patches
-  for (bool again = true; again;) {
-    mesh.vertices.erase(mesh.vertices.begin() + vertex_count, mesh.vertices.end());
-    mesh.triangles.resize(face_count);
-    loop_of_face.clear();
-    for (std::uint32_t i = 0; i < loops.size(); ++i) {
-      if (i % 64 == 0) progress("close holes", i / static_cast<double>(loops.size()));
-      fill_hole(mesh, twins, loops[i], shapes[i]);
-      loop_of_face.resize(mesh.triangles.size() - face_count, i);
-    }
-    std::vector<std::uint32_t> patches(loop_of_face.size());
-    std::iota(patches.begin(), patches.end(), static_cast<std::uint32_t>(face_count));
-    std::vector<char> crosses(loops.size(), 0);
-    for (const FacePair& pair : find_self_intersections(mesh, patches))
-      for (const std::uint32_t f : {pair.face, pair.other})
-        if (f >= face_count) crosses[loop_of_face[f - face_count]] = 1;
-    again = false;
-    for (std::size_t i = 0; i < loops.size(); ++i) {
-      if (!crosses[i] || shapes[i] == PatchShape::Triangles) continue;
-      shapes[i] = shapes[i] == PatchShape::Faired ? PatchShape::Membrane : PatchShape::Triangles;
-      again = true;
+  std::vector<Patch> patches;
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    if (i % 64 == 0) progress("close holes", static_cast<double>(i) / static_cast<double>(loops.size()));
+    patches.push_back(make_patch(mesh, twins, loops[i], shapes[i]));
+  }
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const std::size_t i : find_crossing_patches(mesh, patches)) {
+      const std::optional<PatchShape> shape = plainer(shapes[i]);
+      if (!shape) continue;
+      shapes[i] = *shape;
+      patches[i] = make_patch(mesh, twins, loops[i], *shape);
+      changed = true;
     }
   }
   for (const BorderLoop& loop : loops) {
     const BoundingBox box = box_of(mesh, loop);
     result.changes.push_back({RepairKind::ClosedHole, (box.low + box.high) / 2, box.diagonal()});
   }
-  result.faces_added += mesh.triangles.size() - face_count;
+  for (const Patch& patch : patches) {
+    result.faces_added += patch.triangles.size();
+    append_patch(mesh, patch);
+  }
 }
 
 }  // namespace

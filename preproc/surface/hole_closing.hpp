@@ -15,7 +15,7 @@ struct HoleClosingOptions {
 };
 
 // A hole's size is the diagonal of its border's bounding box. Components with a hole that is too large are dropped if
-// they are fragments; NotMeshable names the hole otherwise. All other holes are filled (see fill_hole): faired, and
+// they are fragments; NotMeshable names the hole otherwise. All other holes are filled (see make_patch): faired, and
 // where such a patch crosses something, as a membrane, and at last by triangles of its border alone, which may still
 // cross. Precondition: manifold, oriented. Nothing happens to a closed surface but one pass over its edges.
 void close_holes(SurfaceMesh& mesh, const HoleClosingOptions& options, RepairResult& result, const Progress& progress);

@@ -5,6 +5,7 @@
 #include <CGAL/Polygon_mesh_processing/refine.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 #include <CGAL/Surface_mesh.h>
+#include <CGAL/boost/graph/Euler_operations.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,6 +23,7 @@ using Vertex = Surface::Vertex_index;
 using Halfedge = Surface::Halfedge_index;
 
 constexpr double sharp_border_deg = 50;
+constexpr std::size_t most_edges_of_cubic_search = 150;
 
 // The faces that touch the loop's vertices, as a mesh of their own: all that triangulation, refinement and fairing look
 // at.
@@ -77,20 +79,21 @@ Surroundings extract_surroundings(const SurfaceMesh& mesh, const Twins& twins, c
 
 // Mean angle between the patch and the faces beside it, weighted by edge length.
 double mean_border_angle_deg(const Surface& surface, const std::vector<Halfedge>& border) {
-  const auto normal = [&](Face f) {
+  const auto position = [&](Vertex v) {
+    const auto& p = surface.point(v);
+    return Vec3(p.x(), p.y(), p.z());
+  };
+  const auto normal = [&](Face f) {  // zero for a face of no area
     const Halfedge h = surface.halfedge(f);
-    const auto n = CGAL::normal(surface.point(surface.source(h)), surface.point(surface.target(h)),
-                                surface.point(surface.target(surface.next(h))));
-    return Vec3(n.x(), n.y(), n.z()).normalized();
+    const Vec3 a = position(surface.source(h)), b = position(surface.target(h));
+    return Vec3((b - a).cross(position(surface.target(surface.next(h))) - a).normalized());
   };
   double sum = 0, length_sum = 0;
   for (const Halfedge h : border) {
     const Vec3 inside = normal(surface.face(h)), outside = normal(surface.face(surface.opposite(h)));
-    const double length =
-        std::sqrt(CGAL::squared_distance(surface.point(surface.source(h)), surface.point(surface.target(h))));
-    const double angle = std::atan2(inside.cross(outside).norm(), inside.dot(outside));
-    if (!std::isfinite(angle)) continue;
-    sum += length * angle;
+    if (inside.isZero() || outside.isZero()) continue;
+    const double length = (position(surface.source(h)) - position(surface.target(h))).norm();
+    sum += length * std::atan2(inside.cross(outside).norm(), inside.dot(outside));
     length_sum += length;
   }
   return length_sum > 0 ? sum / length_sum * 180 / std::numbers::pi : 0;
@@ -112,17 +115,26 @@ void fair_patch(Surface& surface, const std::vector<Vertex>& inner, const CGAL::
   for (std::size_t i = 0; i < inner.size(); ++i) surface.point(inner[i]) = before[i];
 }
 
-void append_fan(SurfaceMesh& mesh, const BorderLoop& loop) {
-  Vec3 centre = Vec3::Zero();
-  for (const std::uint32_t h : loop) centre += mesh.vertices[start_vertex(mesh, h)];
-  const auto apex = static_cast<std::uint32_t>(mesh.vertices.size());
-  mesh.vertices.push_back(centre / static_cast<double>(loop.size()));
-  for (const std::uint32_t h : loop) mesh.triangles.push_back({end_vertex(mesh, h), start_vertex(mesh, h), apex});
+std::vector<Face> add_fan(Surface& surface, Halfedge hole) {
+  Vec3 sum = Vec3::Zero();
+  std::size_t count = 0;
+  for (const Halfedge h : CGAL::halfedges_around_face(hole, surface)) {
+    const auto& p = surface.point(surface.target(h));
+    sum += Vec3(p.x(), p.y(), p.z());
+    ++count;
+  }
+  const Vec3 centre = sum / static_cast<double>(count);
+  CGAL::Euler::fill_hole(hole, surface);
+  const Halfedge first = CGAL::Euler::add_center_vertex(hole, surface);
+  surface.point(surface.target(first)) = {centre.x(), centre.y(), centre.z()};
+  std::vector<Face> faces;
+  for (const Face f : surface.faces_around_target(first)) faces.push_back(f);
+  return faces;
 }
 
 }  // namespace
 
-void fill_hole(SurfaceMesh& mesh, const Twins& twins, const BorderLoop& loop, PatchShape shape) {
+Patch make_patch(const SurfaceMesh& mesh, const Twins& twins, const BorderLoop& loop, PatchShape shape) {
   Surroundings around = extract_surroundings(mesh, twins, loop);
   Surface& surface = around.surface;
   std::vector<Halfedge> border;
@@ -133,28 +145,42 @@ void fill_hole(SurfaceMesh& mesh, const Twins& twins, const BorderLoop& loop, Pa
   }
 
   const auto face_count = static_cast<std::uint32_t>(surface.number_of_faces());
-  std::vector<Face> patch;
-  PMP::triangulate_hole(surface, around.hole, std::back_inserter(patch),
-                        CGAL::parameters::use_2d_constrained_delaunay_triangulation(true));
-  if (patch.empty()) return append_fan(mesh, loop);
+  std::vector<Face> faces;
+  PMP::triangulate_hole(surface, around.hole, std::back_inserter(faces),
+                        CGAL::parameters::use_2d_constrained_delaunay_triangulation(true).do_not_use_cubic_algorithm(
+                            border.size() > most_edges_of_cubic_search));
+  if (faces.empty()) faces = add_fan(surface, around.hole);
 
   if (shape != PatchShape::Triangles) {
     const bool sharp = mean_border_angle_deg(surface, border) > sharp_border_deg;
     std::vector<Vertex> inner;
-    PMP::refine(surface, patch, CGAL::Emptyset_iterator(), std::back_inserter(inner));
+    PMP::refine(surface, faces, CGAL::Emptyset_iterator(), std::back_inserter(inner));
     fair_patch(surface, inner, box, sharp || shape == PatchShape::Membrane ? 0 : 1);
   }
 
+  Patch patch;
+  patch.first_vertex = static_cast<std::uint32_t>(mesh.vertices.size());
   for (std::size_t v = around.vertex_in_mesh.size(); v < surface.number_of_vertices(); ++v) {
     const auto& p = surface.point(Vertex(static_cast<std::uint32_t>(v)));
-    around.vertex_in_mesh.push_back(static_cast<std::uint32_t>(mesh.vertices.size()));
-    mesh.vertices.push_back({p.x(), p.y(), p.z()});
+    around.vertex_in_mesh.push_back(patch.first_vertex + static_cast<std::uint32_t>(patch.vertices.size()));
+    patch.vertices.push_back({p.x(), p.y(), p.z()});
   }
   for (const Face f : surface.faces()) {
     if (f.idx() < face_count) continue;
-    Triangle& t = mesh.triangles.emplace_back();
+    Triangle& t = patch.triangles.emplace_back();
     std::size_t i = 0;
     for (const Vertex v : surface.vertices_around_face(surface.halfedge(f))) t[i++] = around.vertex_in_mesh[v.idx()];
+  }
+  return patch;
+}
+
+void append_patch(SurfaceMesh& mesh, const Patch& patch) {
+  const auto shift = static_cast<std::uint32_t>(mesh.vertices.size()) - patch.first_vertex;
+  mesh.vertices.insert(mesh.vertices.end(), patch.vertices.begin(), patch.vertices.end());
+  for (Triangle t : patch.triangles) {
+    for (std::uint32_t& v : t)
+      if (v >= patch.first_vertex) v += shift;
+    mesh.triangles.push_back(t);
   }
 }
 

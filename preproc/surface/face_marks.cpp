@@ -1,0 +1,60 @@
+#include "preproc/surface/face_marks.hpp"
+
+#include "preproc/surface/adjacency.hpp"
+#include "preproc/surface/components.hpp"
+#include "preproc/surface/soup_cleaning.hpp"
+
+#include <algorithm>
+
+namespace scan2fea {
+
+FaceMarks marks_of(std::span<const FacePair> pairs, std::size_t face_count) {
+  FaceMarks marks(face_count, 0);
+  for (const FacePair& pair : pairs) marks[pair.face] = marks[pair.other] = 1;
+  return marks;
+}
+
+std::vector<std::uint32_t> vertices_of(const SurfaceMesh& mesh, const FaceMarks& marks) {
+  std::vector<std::uint32_t> vertices;
+  for (std::size_t f = 0; f < marks.size(); ++f)
+    if (marks[f]) vertices.insert(vertices.end(), mesh.triangles[f].begin(), mesh.triangles[f].end());
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  return vertices;
+}
+
+void grow(const SurfaceMesh& mesh, FaceMarks& marks, int rings) {
+  std::vector<char> at_vertex(mesh.vertices.size());
+  for (int ring = 0; ring < rings; ++ring) {
+    std::fill(at_vertex.begin(), at_vertex.end(), 0);
+    for (std::size_t f = 0; f < marks.size(); ++f)
+      if (marks[f])
+        for (const std::uint32_t v : mesh.triangles[f]) at_vertex[v] = 1;
+    for (std::size_t f = 0; f < marks.size(); ++f)
+      for (const std::uint32_t v : mesh.triangles[f]) marks[f] |= at_vertex[v];
+  }
+}
+
+FacePieces find_pieces(const SurfaceMesh& mesh, const FaceMarks& marks, std::optional<char> only) {
+  const auto counts = [&](std::size_t f) { return !only || marks[f] == *only; };
+  SurfaceMesh part{mesh.vertices, {}};
+  for (std::size_t f = 0; f < marks.size(); ++f)
+    if (counts(f)) part.triangles.push_back(mesh.triangles[f]);
+  const Components components = find_components(part);
+  FacePieces pieces;
+  pieces.of_face.assign(marks.size(), 0);
+  std::vector<std::uint32_t> number(components.count, no_face);
+  for (std::uint32_t f = 0; f < marks.size(); ++f) {
+    if (!counts(f)) continue;
+    std::uint32_t& n = number[components.of_vertex[mesh.triangles[f][0]]];
+    if (n == no_face) {
+      n = static_cast<std::uint32_t>(pieces.area.size());
+      pieces.area.push_back(0);
+    }
+    pieces.of_face[f] = n;
+    pieces.area[n] += area_of(mesh, f);
+  }
+  return pieces;
+}
+
+}  // namespace scan2fea
