@@ -4,6 +4,7 @@
 #include "preproc/surface/collapse.hpp"
 #include "preproc/surface/delaunay_flips.hpp"
 #include "preproc/surface/halfedge_mesh.hpp"
+#include "preproc/surface/side_normals.hpp"
 #include "preproc/surface/surface_walk.hpp"
 #include "quality/self_intersections.hpp"
 #include "quality/triangle_tree.hpp"
@@ -215,7 +216,45 @@ TEST(Enrich, ThinWallsDoNotSeeTheirOtherSide) {
                 std::max({p[0], p[1]}) > 3.7)
         << p.transpose();
   EXPECT_TRUE(check_validity(mesh).closed());
-  EXPECT_NEAR(enclosed_volume(mesh), enclosed_volume(plate), 0.1 * enclosed_volume(plate));
+  EXPECT_NEAR(enclosed_volume(mesh), enclosed_volume(plate), 1e-6 * enclosed_volume(plate));
+}
+
+TEST(Enrich, ABoxStaysABox) {
+  // The normals of all sides meet at its corners; a height from their mean would blow it up.
+  for (const double edge : {4.0, 1.0}) {
+    const SurfaceMesh box = analytic::box(Vec3(4, 4, 4), edge);
+    SurfaceMesh mesh = box;
+    ASSERT_GT(enrich(mesh, {.sampling_radius = 0.4}).added, 300U);
+    EXPECT_NEAR(enclosed_volume(mesh), 64, 1e-9);
+    for (const Vec3& p : mesh.vertices) EXPECT_NEAR((p - Vec3(2, 2, 2)).cwiseAbs().maxCoeff(), 2, 1e-9);
+  }
+}
+
+TEST(Enrich, ACrowdedCornerDoesNotFillTheWholeSurface) {
+  SurfaceMesh mesh = analytic::sphere(1, 5);
+  CollapseOptions options{.target_faces = 3000, .cost = CollapseCost::sized_length};
+  for (const Vec3& p : mesh.vertices) options.sizing.push_back(p[0] > 0.8 ? 1 : 10);
+  collapse(mesh, options);
+  const std::size_t before = mesh.vertices.size();
+  EXPECT_LT(enrich(mesh).added, 6 * before);
+}
+
+TEST(SideNormals, PartAtSharpEdgesOnly) {
+  const SurfaceMesh box = analytic::box(Vec3(1, 1, 1), 0.5);
+  const SideNormals sharp(HalfedgeMesh(box), 60);
+  for (std::uint32_t v = 0; v < box.vertices.size(); ++v) {
+    const Vec3 out = box.vertices[v] - Vec3(0.5, 0.5, 0.5);
+    for (int axis = 0; axis < 3; ++axis)
+      if (std::abs(out[axis]) > 0.4) {
+        const Vec3 side = std::copysign(1.0, out[axis]) * Vec3::Unit(axis);
+        EXPECT_NEAR((sharp.facing(v, side) - side).norm(), 0, 1e-12);
+      }
+  }
+  // An icosahedron bends by 42 degrees at all edges alike.
+  const SurfaceMesh ball = analytic::sphere(1, 0);
+  const SideNormals round(HalfedgeMesh(ball), 30);
+  for (std::uint32_t v = 0; v < ball.vertices.size(); ++v)
+    EXPECT_NEAR((round.facing(v, Vec3::UnitX()) - ball.vertices[v]).norm(), 0, 1e-9);
 }
 
 TEST(Enrich, ReportsTooManyVerticesAndRefusesWrongOptions) {

@@ -4,6 +4,7 @@
 #include "preproc/surface/delaunay_flips.hpp"
 #include "preproc/surface/halfedge_mesh.hpp"
 #include "preproc/surface/place_vertex.hpp"
+#include "preproc/surface/side_normals.hpp"
 #include "preproc/surface/surface_walk.hpp"
 
 #include <algorithm>
@@ -29,6 +30,12 @@ constexpr double separation = 0.414;
 // A vertex asks at most this often: sectors of 90 degrees are filled by four. Where more are asked for, the surface is
 // so bent that points put into a sector are not seen in it.
 constexpr std::uint8_t most_requests = 6;
+
+// Between the angles of coarse or noisy scans and the edges of parts.
+constexpr double crease_deg = 60;
+
+// Measured points whose side turns more than 60 degrees from the new point's tangent plane tell nothing of its height.
+constexpr double smallest_sample_cosine = 0.5;
 
 // Neighbours whose normals look away more than this are on another sheet.
 constexpr double smallest_neighbour_cosine = -0.2;
@@ -79,14 +86,14 @@ class TangentPlane {
 class Enricher {
  public:
   Enricher(const SurfaceMesh& mesh, const EnrichOptions& options)
-      : mesh_(mesh), options_(options), nearest_(mesh_), original_count_(mesh_.vertex_slots()) {
-    normals_.assign(mesh_.vertex_slots(), Vec3::Zero());
-    for (Index f = 0; f < mesh_.face_slots(); ++f)
-      for (const Index v : mesh_.triangle(f)) normals_[v] += mesh_.area_vector(f);
-    for (Vec3& n : normals_) n.normalize();
+      : mesh_(mesh),
+        options_(options),
+        nearest_(mesh_),
+        normals_(mesh_, crease_deg),
+        original_count_(mesh_.vertex_slots()) {
     for (Index v = 0; v < mesh_.vertex_slots(); ++v)
       if (mesh_.is_alive(v) && holds(options.domain, mesh_.points[v])) domain_.push_back(v);
-    radius_ = options.sampling_radius ? *options.sampling_radius : 1.5 * median_spacing();
+    radius_ = options.sampling_radius ? *options.sampling_radius : default_radius(surface_area(mesh));
     requests_.assign(mesh_.vertex_slots(), 0);
     if (radius_ > 0) {
       const double packed = std::numbers::sqrt3 / 2 * separation * separation * radius_ * radius_;
@@ -127,6 +134,13 @@ class Enricher {
   SurfaceMesh take() const { return mesh_.to_surface(); }
 
  private:
+  // Where half of the points crowd in a small part of the surface the median tells about that part alone; as many
+  // points spread evenly, in equilateral triangles, would have the other spacing.
+  double default_radius(double area) {
+    const auto points = static_cast<double>(std::max<std::size_t>(1, original_count_));
+    return std::max(1.5 * median_spacing(), std::sqrt(2 / std::numbers::sqrt3 * area / points));
+  }
+
   double median_spacing() {
     std::vector<double> spacing;
     for (const Index v : domain_) {
@@ -151,14 +165,14 @@ class Enricher {
     const std::array<Index, 1> seed{v};
     nearest_.search(
         seed, mesh_.points[v], radius,
-        [&](Index w) { return normals_[w].dot(normals_[v]) > smallest_neighbour_cosine; },
+        [&](Index w) { return normals_.mean(w).dot(normals_.mean(v)) > smallest_neighbour_cosine; },
         [&](Index w, double distance) { return w == v || visit(w, distance); });
   }
 
   // The paper's importance function: the bisectors of the empty sectors, widest first, as angles in the plane of v;
   // none where v is content.
   std::vector<double> empty_sectors(Index v) {
-    const TangentPlane plane(mesh_.points[v], normals_[v]);
+    const TangentPlane plane(mesh_.points[v], normals_.mean(v));
     std::vector<double> angles;
     search_from(v, radius_, [&](Index w, double) {
       angles.push_back(plane.angle(mesh_.points[w]));
@@ -206,10 +220,10 @@ class Enricher {
   }
 
   bool fill_one_of(Index v, const std::vector<double>& bisectors) {
-    const TangentPlane plane(mesh_.points[v], normals_[v]);
+    const TangentPlane plane(mesh_.points[v], normals_.mean(v));
     for (const double angle : bisectors) {
       const Vec3 direction = plane.direction(angle);
-      const auto base = walk_straight(mesh_, v, normals_[v], direction, placement_distance * radius_);
+      const auto base = walk_straight(mesh_, v, normals_.mean(v), direction, placement_distance * radius_);
       if (base && insert(*base)) return true;
     }
     return false;
@@ -231,23 +245,41 @@ class Enricher {
     const Vec3 normal = normal_at(base);
     if (!holds(options_.domain, point) || !has_room(t, point, normal, HalfedgeMesh::none)) return false;
 
+    const bool on_crease = on_edge && normals_.is_crease(mesh_, edge);
+    if (on_crease)
+      normals_.add(normal, normal_at(across(edge, base)));
+    else
+      normals_.add(normal);
     const Index v = on_edge ? mesh_.split_edge(edge, point) : mesh_.split_face(base.face, point);
-    normals_.push_back(normal);
     requests_.push_back(0);
     domain_.push_back(v);
     ++result_.added;
     restore_delaunay(mesh_, v);
+    if (on_crease) {
+      // The two sides tell two heights, and neither is the crease's.
+      ++result_.not_lifted;
+      return true;
+    }
     if (options_.place_by_entropy) point = mesh_.points[v] = placed_by_entropy(v);
     lift(v, t, point);
     return true;
   }
 
+  // The same point of an edge, seen from the face beyond it.
+  SurfacePoint across(Index edge, const SurfacePoint& base) const {
+    const Index o = mesh_.opposite(edge);
+    SurfacePoint other{HalfedgeMesh::face(o), Vec3::Zero()};
+    other.weights[o % 3] = base.weights[HalfedgeMesh::next(edge) % 3];
+    other.weights[HalfedgeMesh::next(o) % 3] = base.weights[edge % 3];
+    return other;
+  }
+
   Vec3 normal_at(const SurfacePoint& base) const {
     const Triangle t = mesh_.triangle(base.face);
     const Vec3 face = mesh_.area_vector(base.face).normalized();
-    const Vec3 mean =
-        (base.weights[0] * normals_[t[0]] + base.weights[1] * normals_[t[1]] + base.weights[2] * normals_[t[2]])
-            .normalized();
+    Vec3 mean = Vec3::Zero();
+    for (std::size_t i = 0; i < 3; ++i) mean += base.weights[static_cast<int>(i)] * normals_.facing(t[i], face);
+    mean.normalize();
     return mean.dot(face) > 0.3 ? mean : face;
   }
 
@@ -255,7 +287,7 @@ class Enricher {
     bool room = true;
     nearest_.search(
         seeds, point, separation * radius_,
-        [&](Index w) { return w != except && normals_[w].dot(normal) > smallest_neighbour_cosine; },
+        [&](Index w) { return w != except && normals_.mean(w).dot(normal) > smallest_neighbour_cosine; },
         [&](Index, double) { return room = false; });
     return room;
   }
@@ -265,23 +297,26 @@ class Enricher {
     mesh_.for_each_neighbour(v, [&](Index w) { link.push_back(mesh_.points[w]); });
     const PlaceVertexResult placed = place_vertex({mesh_.points[v], link}, star_normal(link));
     const Triangle t = mesh_.triangle(HalfedgeMesh::face(mesh_.outgoing(v)));
-    return placed.feasible && has_room(t, placed.position, normals_[v], v) ? placed.position : mesh_.points[v];
+    return placed.feasible && has_room(t, placed.position, normals_.mean(v), v) ? placed.position : mesh_.points[v];
   }
 
   // To the height that the measured points around tell, unless it is not credible or would fold the star.
   void lift(Index v, const Triangle& seeds, const Vec3& base) {
     // With normals, three equations each for six unknowns; and from all sides: at the rim of a gap the nearest points
     // all lie on one side of it.
-    constexpr std::size_t wanted_samples = 10, most_samples = 60;
-    const Vec3 normal = normals_[v];
+    // Beyond a thousand new points the measured ones are too far to tell.
+    constexpr std::size_t wanted_samples = 10, most_samples = 60, most_visits = 1000;
+    const Vec3 normal = normals_.mean(v);
     TangentPlane sectors(base, normal);
     samples_.clear();
     double farthest = 0, closest = infinity;
+    std::size_t visits = 0;
     nearest_.search(
-        seeds, base, infinity, [&](Index w) { return normals_[w].dot(normal) > smallest_neighbour_cosine; },
+        seeds, base, infinity, [&](Index w) { return normals_.facing(w, normal).dot(normal) > smallest_sample_cosine; },
         [&](Index w, double distance) {
+          if (++visits > most_visits) return false;
           if (w >= original_count_) return true;
-          samples_.push_back({mesh_.points[w], normals_[w]});
+          samples_.push_back({mesh_.points[w], normals_.facing(w, normal)});
           sectors.add(mesh_.points[w]);
           farthest = std::sqrt(distance);
           closest = std::min(closest, farthest);
@@ -307,10 +342,10 @@ class Enricher {
   HalfedgeMesh mesh_;
   const EnrichOptions& options_;
   NearestOnSurface nearest_;
+  SideNormals normals_;  // of the scan at its vertices; of a new one, interpolated where it was put
   std::size_t original_count_;
   double radius_ = 0;
   std::size_t most_new_vertices_ = 0;  // the option, or twice what packing leaves room for
-  std::vector<Vec3> normals_;          // of the scan at its vertices; of a new one, interpolated where it was put
   std::vector<std::uint8_t> requests_;
   std::vector<Index> domain_;
   std::vector<SurfaceSample> samples_;
