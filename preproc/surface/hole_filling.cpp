@@ -135,6 +135,10 @@ std::vector<Face> add_fan(Surface& surface, Halfedge hole) {
 }  // namespace
 
 Patch make_patch(const SurfaceMesh& mesh, const Twins& twins, const BorderLoop& loop, PatchShape shape) {
+  if (loop.size() == 3) {  // nothing to choose; and it may have no area, as at a vertex that lies on an edge
+    const Triangle only{end_vertex(mesh, loop[0]), start_vertex(mesh, loop[0]), start_vertex(mesh, loop[1])};
+    return {{}, {only}, static_cast<std::uint32_t>(mesh.vertices.size())};
+  }
   Surroundings around = extract_surroundings(mesh, twins, loop);
   Surface& surface = around.surface;
   std::vector<Halfedge> border;
