@@ -7,17 +7,17 @@
 
 namespace scan2fea {
 
-// Solids that overlap are united (see unite_shells). Vertices that only touch are drawn back a hundredth of the way to
-// their neighbours. Folds are smoothed, within an edge length. What still intersects is cut out with a ring of
-// neighbours and filled, in rounds: whatever intersects afterwards is cut with a wider ring, and every other time
-// filled by the plainest patch. Islands that a cut leaves, smaller than the cut itself, go with it. Precondition:
-// closed, manifold. The result is closed, and manifold unless intersections remain. It may have more shells than
-// before, some of them within others. Costs one search for intersections for a sound surface, and a local search a
-// round.
 struct IntersectionRemoval {
   std::size_t remaining = 0;  // pairs that no round mended; 0 as a rule
   double area_cut = 0;        // of the faces of the input that are gone
 };
+
+// Solids that overlap are united (see unite_shells), vertices that only touch drawn apart, folds smoothed (see
+// fold_smoothing.hpp). What still intersects is cut out with a ring of neighbours and filled, in rounds: whatever
+// intersects afterwards is cut with a wider ring, and every other time filled by the plainest patch. Islands that a cut
+// leaves, smaller than the cut itself, go with it. The result is closed, and manifold unless intersections remain; it
+// may have more shells than before, some of them within others.
+// Precondition: closed, manifold. Costs one search for intersections for a sound surface, and a local search a round.
 IntersectionRemoval remove_intersections(SurfaceMesh& mesh, RepairResult& result, const Progress& progress);
 
 }  // namespace scan2fea

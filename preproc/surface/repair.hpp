@@ -26,33 +26,39 @@ struct RepairOptions {
   double fragment_of_area = 0.01;
 };
 
-// In this order, each step leaving alone what is sound:
-//  1. unused vertices, faces with a repeated vertex, and duplicate faces are dropped. Of faces on the same three
-//  vertices
-//     one stays, unless the patch of them is a double wall between two closed parts: then none.
-//  2. Borders that coincide exactly are welded.
-//  3. Inner walls and flaps, sheets that hang on non-manifold edges and whose removal leaves every edge with an even
-//     number of faces, are dropped, smallest first.
-//  4. Faces are paired at every edge (at non-manifold ones across the material between them), oriented consistently,
-//  and
-//     vertices are split so that each has one fan of faces.
-//  5. Specks are dropped (see the options), holes closed: triangulated with the least worst dihedral angles and area,
-//     refined to the density of the border, faired tangent-continuously, or, where the border is a sharp edge, as a
-//     membrane (flat if the border is).
-//  6. Faces of no area are removed by collapsing and flipping edges.
-//  7. Shells are oriented by nesting: the outermost outwards, cavities inwards, parts within cavities outwards.
-//  8. Touching vertices are moved apart by a hundredth of their edges, and faces that still intersect are cut out with
-//  a
-//     ring of neighbours and filled, in rounds of growing rings. Pieces that this leaves inside the solid are dropped.
+// The steps, in this order; each leaves alone what is sound:
 //
-// Vertices that no change needs keep their coordinates bit by bit and their order; so do faces. A sound input is
-// returned as it was.
+// 1. Soup. Unused vertices, faces with a repeated vertex, and duplicate faces are dropped; of faces on the same three
+// vertices one stays, but none of a double wall between two closed parts. Borders that coincide exactly are welded.
+// Inner walls and flaps (sheets without which each of their edges has an even number of faces) go, smallest first.
 //
-// Throws InvalidInput for indices out of range, coordinates that are not finite, or no faces; NotMeshable, naming
-// place, size and option, where a hole is too large to close, the surface encloses no volume (below 1e-6 of area^1.5),
-// or intersections remain. O(n log n) for a sound input; each hole of b border edges costs up to O(b^2) or, in bad
-// cases, O(b^3). Not guaranteed: that crossing parts are united as a solid modeller would (they are parted by a narrow
-// gap), nor that what lies over a hole resembles what the scanner did not see.
+// 2. Manifold. Faces are paired at every edge, at non-manifold ones across the material between them, and oriented
+// consistently; vertices are split so that each has one fan of faces. Specks are dropped.
+//
+// 3. Closed. Holes are triangulated with the least worst dihedral angles and area, refined to the density of the
+// border, and faired tangent-continuously, or as a membrane (flat if the border is) where the border is a sharp edge.
+// Faces of no area are mended by collapsing and flipping edges.
+//
+// 4. Outwards. Shells are oriented by nesting: the outermost outwards, cavities inwards, parts within cavities
+// outwards.
+//
+// 5. Free of intersections. Solids that overlap are united, touching vertices drawn apart by a hundredth of their
+// edges, folds smoothed within an edge's length; what still crosses is cut out with a ring of neighbours and filled, in
+// rounds of growing rings. Pieces that this leaves inside a solid are dropped.
+//
+// Vertices that no change needs keep their coordinates bit by bit and their order; so do faces, but for those of united
+// solids, which come last. A sound input is returned as it was. The same input gives the same output for any number of
+// threads.
+//
+// Throws InvalidInput: indices out of range, coordinates that are not finite, no faces. NotMeshable, naming the place,
+// the value and the limit: a hole too large to close; no volume (below 1e-6 of area^1.5); intersections that remain, or
+// that only cutting out more than a third of the surface would remove. The mesh is then in an unspecified state.
+//
+// A sound surface costs a check of its connectivity and one search for intersections, O(n log n). A hole of b border
+// edges costs about O(b^2).
+//
+// Not guaranteed: that what lies over a hole resembles what the scanner did not see, nor that a part cut where it
+// passed through itself stays one piece.
 RepairResult repair(SurfaceMesh& mesh, const RepairOptions& options = {}, const Progress& progress = {});
 
 }  // namespace scan2fea

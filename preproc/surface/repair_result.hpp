@@ -39,7 +39,7 @@ struct RepairChange {
 struct RepairResult {
   std::vector<RepairChange> changes;   // in the order in which they were made
   std::size_t intersecting_pairs = 0;  // pairs of faces that crossed before any were removed
-  std::size_t faces_removed = 0;       // of the input's faces
+  std::size_t faces_removed = 0;       // patches that did not last included, as in faces_added
   std::size_t faces_added = 0;
 
   bool unchanged() const { return changes.empty(); }
