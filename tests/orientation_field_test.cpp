@@ -2,6 +2,7 @@
 
 #include "preproc/surface/position_field.hpp"
 #include "preproc/surface/scale_relaxation.hpp"
+#include "preproc/surface/spatial_order.hpp"
 #include "tests/analytic_meshes.hpp"
 
 #include <gtest/gtest.h>
@@ -105,14 +106,15 @@ TEST(OrientationField, SphereHasTwelveSingularitiesOfValenceFive) {
 // irregular vertices lie on it.
 class ConformalTorus : public ::testing::Test {
  protected:
-  static std::vector<double> lengths() {
-    std::vector<double> result;
-    for (const Vec3& v : torus().vertices) result.push_back(0.1 * std::hypot(v[0], v[1]));
-    return result;
+  static RefinedScan refined_torus() {
+    SurfaceMesh torus = analytic::torus(3, 1, 180, 90);
+    order_along_curve(torus);
+    SizingField sizing;
+    for (const Vec3& v : torus.vertices) sizing.edge_length.push_back(0.1 * std::hypot(v[0], v[1]));
+    return refine_scan(torus, sizing, 0.7);
   }
-  static SurfaceMesh torus() { return analytic::torus(3, 1, 180, 90); }
 
-  RefinedScan scan = refine_scan(torus(), {.edge_length = lengths()}, 0.7);
+  RefinedScan scan = refined_torus();
   FieldGraph graph = build_field_graph(scan);
 };
 

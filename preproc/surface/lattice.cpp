@@ -5,6 +5,7 @@
 #include "preproc/surface/field_graph.hpp"
 #include "preproc/surface/parallel_blocks.hpp"
 #include "preproc/surface/refined_scan.hpp"
+#include "preproc/surface/spatial_order.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -45,10 +46,16 @@ double share_of_valence_six(const SurfaceMesh& mesh) {
 
 LatticeResult remesh_by_lattice(const SurfaceMesh& scan, const LatticeOptions& options, const Progress& progress) {
   progress("sizing", 0);
-  const SizingField sizing = compute_sizing_field(scan, options.sizing);
-  const double wanted = predicted_triangles(scan, sizing);
+  SurfaceMesh ordered = scan;
+  const std::vector<std::uint32_t> place = order_along_curve(ordered);
+  SizingOptions sizing_options = options.sizing;
+  std::vector<double> factors(options.sizing.factors.size());
+  for (std::size_t v = 0; v < factors.size(); ++v) factors[place[v]] = options.sizing.factors[v];
+  sizing_options.factors = factors;
+  const SizingField sizing = compute_sizing_field(ordered, sizing_options);
+  const double wanted = predicted_triangles(ordered, sizing);
   progress("graph", 0.15);
-  const RefinedScan refined = refine_scan(scan, sizing, options.longest_scan_edge);
+  const RefinedScan refined = refine_scan(std::move(ordered), sizing, options.longest_scan_edge);
   FieldGraph graph = build_field_graph(refined);
   progress("orientation", 0.3);
   const OrientationField orientation = compute_orientation_field(graph, options.orientation);
@@ -79,7 +86,7 @@ LatticeResult remesh_by_lattice(const SurfaceMesh& scan, const LatticeOptions& o
   const ConnectivityResult cleaned = improve_connectivity(result.mesh, result.edge_length, connectivity);
   result.vertex_of_scan_vertex.resize(scan.vertices.size());
   for (std::size_t v = 0; v < scan.vertices.size(); ++v)
-    result.vertex_of_scan_vertex[v] = cleaned.vertex_of_old[extracted.vertex_of_node[refined.scan_vertex_at[v]]];
+    result.vertex_of_scan_vertex[v] = cleaned.vertex_of_old[extracted.vertex_of_node[refined.scan_vertex_at[place[v]]]];
   result.contracted = extracted.contracted;
   if (static_cast<double>(result.mesh.triangles.size()) > (1 + tolerance) * wanted + 1)
     result.failure = "thin parts need " + std::to_string(result.mesh.triangles.size()) + " triangles instead of " +

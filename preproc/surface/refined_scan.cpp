@@ -1,14 +1,16 @@
 #include "preproc/surface/refined_scan.hpp"
 
-#include "preproc/surface/parallel_blocks.hpp"
+#include "preproc/surface/spatial_order.hpp"
 
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <cmath>
+#include <numeric>
 
 namespace scan2fea {
 namespace {
+
+// More vertices than this times the old ones: the new ones, at the end, are then ordered anew.
+constexpr double most_growth = 1.3;
 
 using EdgeKey = std::uint64_t;  // its two vertices, the smaller one in the upper half
 
@@ -112,71 +114,25 @@ class Halving {
   std::uint32_t first_middle_ = 0;
 };
 
-// The bits of a 10-bit number, two zeros after each.
-std::uint32_t spread_bits(std::uint32_t x) {
-  x = (x | (x << 16)) & 0x030000ffU;
-  x = (x | (x << 8)) & 0x0300f00fU;
-  x = (x | (x << 4)) & 0x030c30c3U;
-  return (x | (x << 2)) & 0x09249249U;
-}
-
-// The vertices in Morton order, by two passes of counting sort over 15 bits each.
-std::vector<std::uint32_t> morton_order(const std::vector<Vec3>& points) {
-  const BoundingBox box = bounding_box(points);
-  const double extent = (box.high - box.low).maxCoeff();
-  const double scale = extent > 0 ? 1023.0 / extent : 0.0;
-  std::vector<std::uint32_t> key(points.size());
-  for_each_block(points.size(), [&](std::size_t first, std::size_t last) {
-    for (std::size_t v = first; v < last; ++v) {
-      const Vec3 at = (points[v] - box.low) * scale;
-      key[v] = spread_bits(static_cast<std::uint32_t>(at[0])) | (spread_bits(static_cast<std::uint32_t>(at[1])) << 1) |
-               (spread_bits(static_cast<std::uint32_t>(at[2])) << 2);
-    }
-  });
-  std::vector<std::uint32_t> order(points.size()), sorted(points.size());
-  for (std::uint32_t v = 0; v < order.size(); ++v) order[v] = v;
-  constexpr std::uint32_t bits = 15, mask = (1U << bits) - 1;
-  for (std::uint32_t shift = 0; shift < 2 * bits; shift += bits) {
-    std::vector<std::uint32_t> start(mask + 2, 0);
-    for (const std::uint32_t k : key) ++start[((k >> shift) & mask) + 1];
-    for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
-    for (const std::uint32_t v : order) sorted[start[(key[v] >> shift) & mask]++] = v;
-    order.swap(sorted);
-  }
-  return order;
-}
-
-void renumber(RefinedScan& scan, std::size_t scan_vertices) {
-  const std::vector<std::uint32_t> order = morton_order(scan.mesh.vertices);
-  std::vector<std::uint32_t> place(order.size());
-  std::vector<Vec3> vertices(order.size());
-  std::vector<double> edge_length(order.size());
-  for_each_block(order.size(), [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      place[order[i]] = static_cast<std::uint32_t>(i);
-      vertices[i] = scan.mesh.vertices[order[i]];
-      edge_length[i] = scan.edge_length[order[i]];
-    }
-  });
-  scan.mesh.vertices = std::move(vertices);
-  scan.edge_length = std::move(edge_length);
-  for_each_block(scan.mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
-    for (std::size_t f = first; f < last; ++f)
-      for (std::uint32_t& v : scan.mesh.triangles[f]) v = place[v];
-  });
-  place.resize(scan_vertices);
-  scan.scan_vertex_at = std::move(place);
-}
-
 }  // namespace
 
-RefinedScan refine_scan(const SurfaceMesh& scan, const SizingField& sizing, double limit, int passes) {
-  RefinedScan result{.mesh = scan, .edge_length = sizing.edge_length, .scan_vertex_at = {}};
+RefinedScan refine_scan(SurfaceMesh scan, const SizingField& sizing, double limit, int passes) {
+  const std::size_t scan_vertices = scan.vertices.size();
+  RefinedScan result{.mesh = std::move(scan), .edge_length = sizing.edge_length, .scan_vertex_at = {}};
   Halving halving(result.mesh, result.edge_length, limit);
-  std::vector<std::uint32_t> active(scan.triangles.size());
+  std::vector<std::uint32_t> active(result.mesh.triangles.size());
   for (std::uint32_t f = 0; f < active.size(); ++f) active[f] = f;
   for (int i = 0; i < passes && !active.empty(); ++i) active = halving.pass(active);
-  renumber(result, scan.vertices.size());
+
+  result.scan_vertex_at.resize(scan_vertices);
+  std::iota(result.scan_vertex_at.begin(), result.scan_vertex_at.end(), 0U);
+  if (static_cast<double>(result.mesh.vertices.size()) > most_growth * static_cast<double>(scan_vertices)) {
+    const std::vector<std::uint32_t> place = order_along_curve(result.mesh);
+    std::vector<double> edge_length(place.size());
+    for (std::size_t v = 0; v < place.size(); ++v) edge_length[place[v]] = result.edge_length[v];
+    result.edge_length = std::move(edge_length);
+    result.scan_vertex_at.assign(place.begin(), place.begin() + static_cast<std::ptrdiff_t>(scan_vertices));
+  }
   return result;
 }
 

@@ -9,8 +9,7 @@
 
 namespace scan2fea {
 
-// The same surface as the scan, point by point, with more vertices. They are renumbered along a space-filling curve, so
-// that neighbours in space are mostly neighbours in memory.
+// The same surface as the scan, point by point, with more vertices.
 struct RefinedScan {
   SurfaceMesh mesh;
   std::vector<double> edge_length;            // the sizing field, linear along the scan's edges
@@ -21,6 +20,6 @@ struct RefinedScan {
 // of the lattice may hold no vertex and the result gets holes. Each pass halves all long edges at once, so that both
 // sides agree and slivers do not multiply; at most `passes` passes (a cube of 12 triangles needs about 10 for a fine
 // lattice). Cost: linear in the result, which for long edges has about 2 (edge / (limit h))^2 triangles for one.
-RefinedScan refine_scan(const SurfaceMesh& scan, const SizingField& sizing, double limit, int passes = 16);
+RefinedScan refine_scan(SurfaceMesh scan, const SizingField& sizing, double limit, int passes = 16);
 
 }  // namespace scan2fea

@@ -213,7 +213,7 @@ SizingField compute_sizing_field(const SurfaceMesh& mesh, const SizingOptions& o
   // of sweeps that is one unit of width where the scan has about eight triangles for one of the result.
   const double scan_length = std::sqrt(scan.area / (equilateral_area * static_cast<double>(mesh.triangles.size())));
   const double density = uniform_length / scan_length;
-  const int sweeps_factor = static_cast<int>(std::clamp(std::lround(density * density / 8), 1L, 4L));
+  const int sweeps_factor = static_cast<int>(std::clamp(std::lround(density * density / 8), 1L, 3L));
 
   std::vector<double> phi(mesh.vertices.size(), 0.0);
   if (options.sizing != Sizing::uniform)
