@@ -2,12 +2,14 @@
 
 #include "preproc/surface/parallel_blocks.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace scan2fea {
 namespace {
 
 constexpr double two_over_sqrt3 = 1.1547005383792515;
+constexpr double sharpest_fold = 0.5;  // 1 + the cosine of 120°, beyond which normals say nothing about lengths
 
 LatticeNode node(const GraphLevel& level, const std::vector<Complex>& directions, std::size_t i) {
   return {level.positions[i], level.normals[i], directions[i], std::exp(level.log_length[i])};
@@ -81,7 +83,8 @@ std::vector<Complex> restricted_directions(const GraphLevel& fine, const std::ve
 }  // namespace
 
 LatticeStep lattice_step(const LatticeNode& from, const LatticeNode& to) {
-  const Complex carry = transport(from.frame, to.frame);
+  const Complex scaled_carry = scaled_transport(from.frame, to.frame);
+  const Complex carry = unit(scaled_carry);
   // The direction of `from` in `to`'s frame relative to that of `to`: a multiple of 60° and a remainder of at most 30°.
   const Complex relative = from.direction * carry * std::conj(to.direction);
   const auto [turns, remainder] = sixth_turn(relative);
@@ -92,7 +95,9 @@ LatticeStep lattice_step(const LatticeNode& from, const LatticeNode& to) {
   Complex d = to.frame.coordinates(step) + from.frame.coordinates(step) * carry;
   const double projected = length(d);
   if (!(projected > 0)) return {{0, 0}, turns};
-  d *= step.norm() / (projected * 0.5 * (from.edge_length + to.edge_length));
+  // The chord, unfolded along the line where the tangent planes meet: longer by 1 / cos(half the angle between them).
+  const double unfolding = std::sqrt(2 / std::max(length(scaled_carry), sharpest_fold));
+  d *= step.norm() * unfolding / (projected * 0.5 * (from.edge_length + to.edge_length));
   d *= std::conj(to.direction * half);
   const double v = d.imag() * two_over_sqrt3;
   return {{static_cast<float>(d.real() - 0.5 * v), static_cast<float>(v)}, turns};

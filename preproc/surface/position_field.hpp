@@ -32,9 +32,9 @@ struct LatticeNode {
   double edge_length;
 };
 
-// The step from `from` to `to`. The displacement is measured in the mean of both tangent planes, stretched to its true
-// length, in lattice axes half-way between the two nodes' and in units of their mean edge length, so that the step back
-// is the inverse.
+// The step from `from` to `to`. The displacement is measured in the mean of both tangent planes, stretched to the way
+// over the line where they meet (the chord would lay too few triangles where the surface bends), in lattice axes
+// half-way between the two nodes' and in units of their mean edge length, so that the step back is the inverse.
 LatticeStep lattice_step(const LatticeNode& from, const LatticeNode& to);
 
 // Turning by 60° is an integer map in these coordinates: (u, v) -> (-v, u + v).

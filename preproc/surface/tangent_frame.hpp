@@ -39,12 +39,16 @@ struct TangentFrame {
   Vec3 vector(const Complex& c) const { return c.real() * x + c.imag() * y; }
 };
 
-// The unit complex number that turns coordinates in `from` to those in `to`, by the smallest rotation that takes the
-// one normal to the other. With (x, y) and (x', y') the two frames, its real part is proportional to x.x' + y.y' and
-// its imaginary part to y.x' - x.y'. Where normals are opposed it is arbitrary.
+// The complex number that turns coordinates in `from` to those in `to` by the smallest rotation that takes the one
+// normal to the other, times 1 + the cosine of the angle between the normals. With (x, y) and (x', y') the two frames
+// it is x.x' + y.y' + i (y.x' - x.y').
+inline Complex scaled_transport(const TangentFrame& from, const TangentFrame& to) {
+  return {to.x.dot(from.x) + to.y.dot(from.y), to.y.dot(from.x) - to.x.dot(from.y)};
+}
+
+// The turn alone, a unit number. Where normals are opposed it is arbitrary.
 inline Complex transport(const TangentFrame& from, const TangentFrame& to) {
-  const Complex t(to.x.dot(from.x) + to.y.dot(from.y), to.y.dot(from.x) - to.x.dot(from.y));
-  return unit(t);
+  return unit(scaled_transport(from, to));
 }
 
 // A direction as a multiple of 60° and a remainder of at most 30°.
