@@ -8,9 +8,8 @@
 #include "preproc/surface/reference_surface.hpp"
 #include "preproc/surface/refined_scan.hpp"
 #include "preproc/surface/shape_fit.hpp"
-#include "preproc/surface/star_objective.hpp"
 #include "quality/deviation.hpp"
-#include "quality/validity.hpp"
+#include "quality/triangle_measures.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -26,22 +25,26 @@ constexpr double fewest_faces = 4;
 // Over the wanted edge length.
 constexpr double longest_edge_to_contract = 1;
 
+// Of the first fit, which finds out how near the triangles can come.
+constexpr int first_rounds = 2;
+
 // What an effort buys. Trials differ by a little in the sizing, which lays another lattice: of several, the distances
 // to the scan in the tightest folds differ by a third, so the best of them is worth having where time is no matter.
 struct FitPlan {
   int rounds;
-  double fidelity_of_diagonal;
+  double fidelity_of_diagonal;  // the dial between shape and fit, at the least
+  double fidelity_of_residual;  // and over the RMS distance of the first fit
   int trials;
 };
 
 FitPlan plan_of(Effort effort) {
   switch (effort) {
     case Effort::low:
-      return {.rounds = 4, .fidelity_of_diagonal = 0.0013, .trials = 1};
+      return {.rounds = 4, .fidelity_of_diagonal = 0.0013, .fidelity_of_residual = 7, .trials = 1};
     case Effort::normal:
-      return {.rounds = 8, .fidelity_of_diagonal = 0.0012, .trials = 1};
+      return {.rounds = 8, .fidelity_of_diagonal = 0.0012, .fidelity_of_residual = 7, .trials = 1};
     case Effort::high:
-      return {.rounds = 12, .fidelity_of_diagonal = 0.00105, .trials = 5};
+      return {.rounds = 12, .fidelity_of_diagonal = 0.00095, .fidelity_of_residual = 5.7, .trials = 5};
   }
   return {};
 }
@@ -81,20 +84,20 @@ Candidate by_lattice(const ReferenceSurface& scan, double faces, const FitPlan& 
 
   Candidate candidate{.mesh = std::move(lattice.mesh), .crossings_mended = 0, .failure = {}, .fit = {}};
   ShapeFitOptions fit;
-  fit.rounds = plan.rounds;
+  fit.rounds = first_rounds;
   fit.fidelity_of_diagonal = plan.fidelity_of_diagonal;
   fit.nearest_vertex_of_scan_vertex = std::move(lattice.vertex_of_scan_vertex);
+  const ShapeFitResult first = optimise_shape_and_fit(candidate.mesh, scan, fit, progress);
+
+  // What the triangles are too large for, or noise, no fit can follow: drawn to it hard, they only lose their shape.
+  fit.fidelity_of_diagonal =
+      std::clamp(plan.fidelity_of_residual * first.rms_distance / scan.diagonal, plan.fidelity_of_diagonal, 0.01);
+  fit.lift_tail_of_diagonal = *fit.lift_tail_of_diagonal * fit.fidelity_of_diagonal / plan.fidelity_of_diagonal;
+  fit.rounds = plan.rounds;
+  fit.nearest_vertex_of_scan_vertex.reset();
   candidate.fit = optimise_shape_and_fit(candidate.mesh, scan, fit, progress);
   finish(candidate, scan, progress);
   return candidate;
-}
-
-double mean_edge_ratio(const SurfaceMesh& mesh) {
-  double sum = 0;
-  for (const Triangle& t : mesh.triangles) {
-    sum += edge_ratio(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
-  }
-  return sum / static_cast<double>(mesh.triangles.size());
 }
 
 Candidate best_by_lattice(const ReferenceSurface& scan, double faces, const SimplifyOptions& options,
@@ -112,8 +115,8 @@ Candidate best_by_lattice(const ReferenceSurface& scan, double faces, const Simp
       continue;
     }
     // All that is to be small, at once.
-    const double score =
-        (mean_edge_ratio(candidate.mesh) - 1) * candidate.fit.rms_distance * candidate.fit.largest_distance;
+    const double score = (measure_triangles(candidate.mesh).edge_ratio.mean - 1) * candidate.fit.rms_distance *
+                         candidate.fit.largest_distance;
     if (score >= best_score) continue;
     best = std::move(candidate);
     best_score = score;
