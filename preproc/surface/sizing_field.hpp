@@ -25,7 +25,8 @@ struct SizingOptions {
   double smallest = 0.45;
   double largest = 2.5;
   double gradation = 0.12;  // largest |grad h|, 0.02 to 1: how fast edge lengths may change from place to place
-  // Each component gets at least about so many triangles, so that small ones keep a shape and a closed surface.
+  // Of several components each gets at least about so many triangles, so that small ones keep a shape and a closed
+  // surface.
   double triangles_per_component = 60;
   // Per scan vertex, multiplies the edge length (before clamping and grading); empty for none. Made from a measured
   // error, or from a user's boxes and spheres.
