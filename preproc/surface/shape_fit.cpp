@@ -143,6 +143,11 @@ class Fitter {
     return of_interest;
   }
 
+  bool has_free_vertex(std::size_t f) const {
+    const Triangle& t = mesh_.triangles[f];
+    return is_free(t[0]) || is_free(t[1]) || is_free(t[2]);
+  }
+
   void start_locations() {
     const std::vector<std::uint32_t> nearest =
         options_.nearest_vertex_of_scan_vertex
@@ -201,7 +206,7 @@ class Fitter {
           const double w = share * weight_unit_ * forward_.samples[s].weight * lift(to_target.squaredNorm());
           add_sample(fit, locations_[s].barycentric, to_target, w, locations_[s].clamped);
         }
-        if (options_.both_sides) {
+        if (options_.both_sides && has_free_vertex(f)) {
           const double area = area_vector(mesh_, mesh_.triangles[f]).norm() / 2;
           for (std::size_t k = 0; k < face_samples.size(); ++k) {
             const Vec3 on_scan = point_at(scan_.mesh, on_scan_[face_samples.size() * f + k]);
@@ -233,6 +238,7 @@ class Fitter {
     sum = total = 0;
     for (std::size_t s = 0; s < on_scan_.size(); ++s) {
       const auto f = static_cast<std::uint32_t>(s / face_samples.size());
+      if (!has_free_vertex(f)) continue;
       add(point_at(mesh_, {f, false, face_samples[s % face_samples.size()]}), point_at(scan_.mesh, on_scan_[s]),
           area_vector(mesh_, mesh_.triangles[f]).norm());
     }
@@ -318,6 +324,7 @@ void Fitter::locate_faces(const ByFace& by_face) {
   tbb::parallel_for(Range(0, faces, 256), [&](const Range& range) {
     for (std::size_t f = range.begin(); f < range.end(); ++f) {
       for (std::size_t k = 0; k < face_samples.size(); ++k) {
+        if (!has_free_vertex(f)) continue;
         const Sample sample{point_at(mesh_, {static_cast<std::uint32_t>(f), false, face_samples[k]}), normals_[f], 0};
         Location& at = on_scan_[face_samples.size() * f + k];
         at = locate(on, sample, at.face, suspicious_part_of_edge * mean_edge_);
