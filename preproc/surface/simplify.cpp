@@ -64,7 +64,9 @@ std::string describe(const SurfaceDefects& defects) {
 // Exact volume, then the guard.
 void finish(Candidate& candidate, const ReferenceSurface& scan, const Progress& progress) {
   try {
-    const GuardResult guarded = guard_surface(candidate.mesh, scan, {}, progress);
+    GuardOptions guard;
+    guard.least_angle_deg = 38.5;  // most fits reach it without the guard
+    const GuardResult guarded = guard_surface(candidate.mesh, scan, guard, progress);
     candidate.crossings_mended = guarded.before.crossings.size();
     if (!guarded.clean()) candidate.failure = describe(guarded.after);
   } catch (const NotMeshable& e) {
