@@ -186,6 +186,15 @@ TEST(OptimiseTetrahedra, NeverWorseBoundaryKeptAllPositive) {
     }
 }
 
+TEST(OptimiseTetrahedra, ASurfaceOfNeedlesDoesNotBlowUp) {
+  // A box of twelve triangles, a hundred times as long as thick: nothing good can be had.
+  const TetMesh before = unoptimised(analytic::box({100, 3, 1}, 100), InteriorPoints::tetgen);
+  TetMesh after = before;
+  optimise_tetrahedra(after, 0);
+  expect_same_boundary(before, after);
+  EXPECT_LT(after.tetrahedra.size(), 2 * before.tetrahedra.size() + 1000);
+}
+
 TEST(OptimiseTetrahedra, StoppedAtAnyMomentItIsValidAndNoWorse) {
   const TetMesh before = unoptimised(analytic::noisy(analytic::sphere(1, 4), 0.005, 3), InteriorPoints::tetgen);
   for (const double milliseconds : {0.0, 1.0, 3.0, 10.0}) {

@@ -22,6 +22,11 @@ constexpr double insertion_gain = 1.02;
 constexpr double smoothing_threshold = 2;
 constexpr int relocation_steps = 8;
 
+// New vertices over elements at the start. A sound surface asks for a hundredth; one of needles would have insertion
+// fill it with ever smaller elements for ever smaller gains.
+constexpr double most_insertions = 0.1;
+constexpr std::size_t insertions_at_least = 50;  // on small meshes
+
 // What was tried on an element without success since it or a neighbour last changed.
 constexpr std::uint32_t tried_topology = 1, tried_insertion = 2, tried_relocation = 4;
 
@@ -32,6 +37,8 @@ class Optimisation {
 
   OptimiseResult run() {
     result_.worst_before = worst();
+    insertions_left_ =
+        insertions_at_least + static_cast<std::size_t>(most_insertions * static_cast<double>(complex_.slot_count()));
     for (int round = 0; round < 3; ++round) {
       topology(false);
       report(0.1 + 0.15 * round);
@@ -138,7 +145,8 @@ class Optimisation {
   }
 
   bool mend_by_insertion(std::uint32_t t) {
-    if (!insertion_.mend(complex_, t, insertion_gain)) return false;
+    if (insertions_left_ == 0 || !insertion_.mend(complex_, t, insertion_gain)) return false;
+    --insertions_left_;
     ++result_.insertions;
     return true;
   }
@@ -203,6 +211,7 @@ class Optimisation {
   VertexInsertion insertion_;
   std::vector<std::uint32_t> around_;
   StarFaces faces_;
+  std::size_t insertions_left_ = 0;
   std::size_t moves_ = 0;
   double fraction_ = 0;
 };
