@@ -65,6 +65,12 @@ TEST(PreserveVolume, FixedVerticesStay) {
   EXPECT_NEAR(enclosed_volume(coarse) / enclosed_volume(fine), 1, 1e-12);
 }
 
+TEST(PreserveVolume, RefusesWhereNothingMayMove) {
+  SurfaceMesh mesh = analytic::sphere(2, 2);
+  const VertexConstraints fixed(mesh.vertices.size(), VertexConstraint::fixed);
+  EXPECT_THROW(preserve_volume(mesh, analytic::sphere(2, 4), fixed), NotMeshable);
+}
+
 TEST(PreserveVolume, RefusesAnotherBody) {
   SurfaceMesh mesh = analytic::sphere(1, 3);
   EXPECT_THROW(preserve_volume(mesh, analytic::sphere(3, 3)), NotMeshable);

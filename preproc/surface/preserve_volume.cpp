@@ -14,6 +14,9 @@
 namespace scan2fea {
 namespace {
 
+// Of a volume, that may be missing in the end: far above rounding, far below any other error.
+constexpr double largest_rest = 1e-9;
+
 using Components = std::vector<std::vector<std::uint32_t>>;  // triangle indices, by component
 
 // Component of every vertex by union-find, numbered in the order of first appearance among the triangles.
@@ -115,6 +118,15 @@ double shift_to_volume(SurfaceMesh& mesh, const std::vector<std::uint32_t>& face
     }
     for (const std::uint32_t v : vertices) mesh.vertices[v] += shift * directions[v];
     if (std::abs(missing) <= 1e-14 * doubled_area * edges) break;
+  }
+  // No free vertex, or a surface so coarse that its normals do not tell which way is out.
+  const double missing = volume - volume_of(mesh, faces, centre);
+  if (std::abs(missing) > largest_rest * std::abs(volume)) {
+    throw NotMeshable({.what = "volume cannot be kept",
+                       .where = "component of " + std::to_string(faces.size()) + " triangles",
+                       .value = std::to_string(volume - missing),
+                       .limit = std::to_string(volume),
+                       .advice = "use more triangles"});
   }
   return total;
 }
