@@ -3,6 +3,7 @@
 
 #include "preproc/mesh/error.hpp"
 #include "preproc/surface/components.hpp"
+#include "quality/deviation_bound.hpp"
 #include "quality/self_intersections.hpp"
 #include "quality/validity.hpp"
 #include "tests/analytic_meshes.hpp"
@@ -134,6 +135,24 @@ TEST(Simplify, RefusesSizesThatMeanNothing) {
        {TargetSize(FaceRatio{0}), TargetSize(MeanEdgeLength{-1}), TargetSize(LargestDeviation{0})})
     EXPECT_THROW(simplify_to(mesh, size), WrongUsage);
   EXPECT_EQ(mesh.triangles.size(), 320U);
+}
+
+TEST(Simplify, DeviationBoundsAllPoints) {
+  const SurfaceMesh scan = analytic::torus(10, 3, 160, 80);
+  SurfaceMesh mesh = scan;
+  SimplifyOptions options;
+  options.size = LargestDeviation{.distance = 0.05};
+  const SimplifyResult result = simplify(mesh, options);
+  EXPECT_LE(bound_deviation(mesh, scan, {.limit = 0.05}).upper(), 0.05);
+  EXPECT_LE(result.largest_deviation, 0.05);
+  EXPECT_LT(mesh.triangles.size(), scan.triangles.size() / 2);
+}
+
+TEST(Simplify, DeviationOutOfReachIsAnErrorOnlyWhereRequired) {
+  SurfaceMesh mesh = analytic::noisy(analytic::sphere(10, 3), 0.2, 1);
+  SimplifyOptions options;
+  options.size = LargestDeviation{.distance = 1e-3};
+  EXPECT_THROW(simplify(mesh, options), NotMeshable);
 }
 
 }  // namespace

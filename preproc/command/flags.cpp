@@ -67,7 +67,8 @@ TargetSize SizeFlags::resolve(const BoundingBox& scan) const {
   if (ratio) return FaceRatio{*ratio};
   if (edge_length) return MeanEdgeLength{*edge_length};
   const RelativeLength bound = deviation.value_or(RelativeLength{.value = 0.002, .relative = true});
-  return LargestDeviation{bound.relative ? bound.value * scan.diagonal() : bound.value};
+  return LargestDeviation{.distance = bound.relative ? bound.value * scan.diagonal() : bound.value,
+                          .required = deviation.has_value()};
 }
 
 void add_common_flags(CLI::App& command, CommonFlags& flags) {

@@ -44,7 +44,8 @@ struct SizeFlags {
   std::optional<double> edge_length;
   std::optional<RelativeLength> deviation;
 
-  // Model units need the scan's bounding box. With no flag: a deviation of 0.2 % of its diagonal.
+  // Model units need the scan's bounding box. With no flag: a deviation of 0.2 % of its diagonal,
+  // as an aim and no bound.
   TargetSize resolve(const BoundingBox& scan) const;
 };
 

@@ -2,13 +2,15 @@
 
 #include "preproc/mesh/error.hpp"
 #include "preproc/surface/clear_moves.hpp"
+#include "preproc/surface/error_sizing.hpp"
 #include "preproc/surface/guard.hpp"
 #include "preproc/surface/lattice.hpp"
+#include "preproc/surface/local_deviation.hpp"
 #include "preproc/surface/preserve_volume.hpp"
 #include "preproc/surface/reference_surface.hpp"
 #include "preproc/surface/refined_scan.hpp"
 #include "preproc/surface/shape_fit.hpp"
-#include "quality/deviation.hpp"
+#include "quality/deviation_bound.hpp"
 #include "quality/triangle_measures.hpp"
 
 #include <algorithm>
@@ -27,6 +29,9 @@ constexpr double longest_edge_to_contract = 1;
 
 // Of the first fit, which finds out how near the triangles can come.
 constexpr int first_rounds = 2;
+
+// Of the edge lengths' renewal, over the local error (see error_factors).
+constexpr double error_renewal = 0.3;
 
 // What an effort buys. Trials differ by a little in the sizing, which lays another lattice: of several, the distances
 // to the scan in the tightest folds differ by a third, so the best of them is worth having where time is no matter.
@@ -74,12 +79,10 @@ void finish(Candidate& candidate, const ReferenceSurface& scan, const Progress& 
   }
 }
 
-Candidate by_lattice(const ReferenceSurface& scan, double faces, const FitPlan& plan, const SimplifyOptions& options,
+Candidate by_lattice(const ReferenceSurface& scan, const SizingOptions& sizing, const FitPlan& plan,
                      double strength_factor, const Progress& progress) {
   LatticeOptions lattice_options;
-  lattice_options.sizing.triangles = faces;
-  lattice_options.sizing.sizing = options.sizing;
-  lattice_options.sizing.gradation = options.gradation;
+  lattice_options.sizing = sizing;
   lattice_options.sizing.strength *= strength_factor;
   LatticeResult lattice = remesh_by_lattice(scan.mesh, lattice_options, progress);
   if (!lattice.failure.empty()) return {.mesh = {}, .crossings_mended = 0, .failure = lattice.failure, .fit = {}};
@@ -102,16 +105,16 @@ Candidate by_lattice(const ReferenceSurface& scan, double faces, const FitPlan& 
   return candidate;
 }
 
-Candidate best_by_lattice(const ReferenceSurface& scan, double faces, const SimplifyOptions& options,
+Candidate best_by_lattice(const ReferenceSurface& scan, const SizingOptions& sizing, Effort effort,
                           const Progress& progress) {
-  const FitPlan plan = plan_of(options.effort);
-  if (plan.trials == 1) return by_lattice(scan, faces, plan, options, 1, progress);
+  const FitPlan plan = plan_of(effort);
+  if (plan.trials == 1) return by_lattice(scan, sizing, plan, 1, progress);
   constexpr double strength_step = 0.03;
   Candidate best;
   double best_score = std::numeric_limits<double>::infinity();
   for (int trial = 0; trial < plan.trials; ++trial) {
     const double strength_factor = 1 + strength_step * (trial - (plan.trials - 1) / 2.0);
-    Candidate candidate = by_lattice(scan, faces, plan, options, strength_factor, progress);
+    Candidate candidate = by_lattice(scan, sizing, plan, strength_factor, progress);
     if (!candidate.failure.empty()) {
       if (best.mesh.triangles.empty()) best.failure = candidate.failure;
       continue;
@@ -129,17 +132,12 @@ Candidate best_by_lattice(const ReferenceSurface& scan, double faces, const Simp
 // Where the lattice gives way: contractions towards the same sizing, none of which makes faces meet, then the same fit.
 // Where the fit ends in crossings that the guard cannot mend, vertices go only as far towards it as nothing meets, and
 // where the shape needs more triangles than were asked for, it keeps them: this way always ends in a sound surface.
-Candidate by_contraction(const ReferenceSurface& scan, double faces, const SimplifyOptions& options,
-                         const Progress& progress) {
-  SizingOptions sizing;
-  sizing.triangles = faces;
-  sizing.sizing = options.sizing;
-  sizing.gradation = options.gradation;
+Candidate by_contraction(const ReferenceSurface& scan, const SizingOptions& sizing, const Progress& progress) {
   // Long triangles, as CAD makes them, are no start for even ones.
   RefinedScan refined = refine_scan(scan.mesh, compute_sizing_field(scan.mesh, sizing), longest_edge_to_contract);
   Candidate contracted{.mesh = std::move(refined.mesh), .crossings_mended = 0, .failure = {}, .fit = {}};
   CollapseOptions collapse_options;
-  collapse_options.target_faces = static_cast<std::size_t>(std::lround(faces));
+  collapse_options.target_faces = static_cast<std::size_t>(std::lround(sizing.triangles));
   collapse_options.cost = CollapseCost::sized_length;
   collapse_options.sizing = std::move(refined.edge_length);
   collapse_options.keep_clear = true;
@@ -175,69 +173,28 @@ Candidate by_collapse(const ReferenceSurface& scan, double faces, const Simplify
   return candidate;
 }
 
-// One surface of about `faces` triangles, by the method asked for or, where that fails, the other.
-SurfaceMesh make_surface(const ReferenceSurface& scan, double faces, const SimplifyOptions& options,
-                         SimplifyResult& result, const Progress& progress) {
+// One surface of the sizes asked for, by the method asked for or, where the lattice fails, by contraction.
+SurfaceMesh make_surface(const ReferenceSurface& scan, const SizingOptions& sizing, const SimplifyOptions& options,
+                         Effort effort, SimplifyResult& result, const Progress& progress) {
   result.method = options.method;
   result.fallback_reason.clear();
-  Candidate candidate = options.method == SimplifyMethod::lattice ? best_by_lattice(scan, faces, options, progress)
-                                                                  : by_collapse(scan, faces, options, progress);
+  Candidate candidate = options.method == SimplifyMethod::lattice
+                            ? best_by_lattice(scan, sizing, effort, progress)
+                            : by_collapse(scan, sizing.triangles, options, progress);
   if (!candidate.failure.empty() && options.method == SimplifyMethod::lattice) {
     result.method = SimplifyMethod::collapse;
     result.fallback_reason = candidate.failure;
-    candidate = by_contraction(scan, faces, options, progress);
+    candidate = by_contraction(scan, sizing, progress);
   }
   if (!candidate.failure.empty())
     throw NotMeshable({.what = "no valid surface of this size: " + candidate.failure,
                        .where = {},
-                       .value = std::to_string(std::lround(faces)) + " triangles",
+                       .value = std::to_string(std::lround(sizing.triangles)) + " triangles",
                        .limit = {},
                        .advice = "more triangles (--faces, or a smaller --edge-length or --deviation)"});
   result.crossings_mended = candidate.crossings_mended;
   result.faces_after = candidate.mesh.triangles.size();
   return std::move(candidate.mesh);
-}
-
-// The deviation of linear triangles falls as the edge length squared, so as one over their number; a few steps of that
-// law, with a margin for where it does not hold, find the number that keeps the bound with few triangles to spare.
-SurfaceMesh make_surface_within(const ReferenceSurface& scan, double distance, const SimplifyOptions& options,
-                                SimplifyResult& result, const Progress& progress) {
-  constexpr int most_trials = 8;
-  constexpr double margin = 0.9;        // of the bound, aimed at
-  constexpr double good_enough = 0.75;  // of the bound, reached: fewer triangles are not looked for
-  const double relative = distance / scan.diagonal;
-  double faces = std::clamp(12.0 / relative, 500.0, static_cast<double>(scan.mesh.triangles.size()));
-  double too_few = 0;
-  std::optional<SurfaceMesh> best;
-  SimplifyResult best_result;
-  for (int trial = 0; trial < most_trials; ++trial) {
-    SurfaceMesh surface = make_surface(scan, faces, options, result, progress);
-    result.largest_deviation = measure_deviation(surface, scan.mesh).hausdorff;
-    const bool within = result.largest_deviation <= distance;
-    if (within && (!best || surface.triangles.size() < best->triangles.size())) {
-      best = std::move(surface);
-      best_result = result;
-    }
-    if (!within) too_few = std::max(too_few, faces);
-    if (within && result.largest_deviation >= good_enough * distance) break;
-    double next = faces * std::clamp(result.largest_deviation / (margin * distance), 0.3, 3.0);
-    // A count that failed bounds the search from below, one that passed from above: between them, the middle.
-    if (best) {
-      const double upper = static_cast<double>(best->triangles.size());
-      if (next >= upper || next <= too_few) next = std::sqrt(std::max(too_few, upper / 8) * upper);
-      if (next > 0.95 * upper) break;
-    }
-    faces = std::max(next, 100.0);
-  }
-  if (!best)
-    throw NotMeshable({.what = "the deviation was not reached",
-                       .where = {},
-                       .value = std::to_string(result.largest_deviation) + " with " +
-                                std::to_string(result.faces_after) + " triangles",
-                       .limit = std::to_string(distance),
-                       .advice = "a larger --deviation"});
-  result = best_result;
-  return std::move(*best);
 }
 
 void require_positive(double value, const char* what) {
@@ -247,6 +204,57 @@ void require_positive(double value, const char* what) {
                       .value = std::to_string(value),
                       .limit = {},
                       .advice = {}});
+}
+
+// The deviation of linear triangles goes with the edge length squared, place by place: a few surfaces are made, and the
+// edge lengths renewed from how far each came from the scan there (bounds, not samples).
+SurfaceMesh make_surface_within(const ReferenceSurface& scan, const LargestDeviation& wanted,
+                                const SimplifyOptions& options, SimplifyResult& result, const Progress& progress) {
+  constexpr int most_trials = 6;
+  constexpr double margin = 0.7;                              // of the bound, aimed at
+  constexpr double first_edge = 12;                           // edge length of the first surface, over the deviation
+  constexpr double most_shrinking = 0.5, most_growing = 1.4;  // of an edge from trial to trial
+  constexpr double shortest_edge = 0.5;                       // over the deviation: shorter ones help nothing
+  // A deviation far below the scan's own facets asks for more; nothing is known there.
+  const double most_triangles = 4 * static_cast<double>(scan.mesh.triangles.size());
+  std::vector<double> length(scan.mesh.vertices.size(), first_edge * wanted.distance);
+  SurfaceMesh best;
+  SimplifyResult best_result;
+  for (int trial = 0; trial < most_trials; ++trial) {
+    progress("deviation", static_cast<double>(trial) / most_trials);
+    SizingOptions sizing;
+    sizing.sizing = Sizing::uniform;
+    sizing.gradation = options.gradation;
+    sizing.triangles = std::clamp(predicted_triangles(scan.mesh, {length}), fewest_faces, most_triangles);
+    sizing.smallest = 0.01;
+    sizing.largest = 100;
+    sizing.factors = length;  // only their ratios count: the number of triangles sets the scale
+    SurfaceMesh surface =
+        make_surface(scan, sizing, options, trial == 0 ? Effort::low : options.effort, result, progress);
+    const DeviationBound bound = bound_deviation(surface, scan.mesh, {.limit = wanted.distance});
+    result.largest_deviation = bound.upper();
+    const bool better = best.triangles.empty() || result.largest_deviation < best_result.largest_deviation;
+    const std::vector<double> deviation = local_deviation(surface, scan, bound);
+    if (better) {
+      best = std::move(surface);
+      best_result = result;
+    }
+    if (trial > 0 && best_result.largest_deviation <= wanted.distance) break;
+    for (std::size_t v = 0; v < length.size(); ++v) {
+      const double ratio = std::sqrt(margin * wanted.distance / std::max(deviation[v], 1e-3 * wanted.distance));
+      length[v] = std::max(length[v] * std::clamp(ratio, most_shrinking, trial == 0 ? 2 * most_growing : 1.0),
+                           shortest_edge * wanted.distance);
+    }
+  }
+  if (wanted.required && best_result.largest_deviation > wanted.distance)
+    throw NotMeshable({.what = "the deviation was not reached",
+                       .where = {},
+                       .value = std::to_string(best_result.largest_deviation) + " with " +
+                                std::to_string(best_result.faces_after) + " triangles",
+                       .limit = std::to_string(wanted.distance),
+                       .advice = "a larger --deviation, or --faces"});
+  result = best_result;
+  return best;
 }
 
 double wanted_faces(const TargetSize& size, const ReferenceSurface& scan) {
@@ -267,11 +275,22 @@ SimplifyResult simplify(const SurfaceMesh& mesh, SurfaceMesh& surface, const Sim
   result.faces_before = mesh.triangles.size();
   if (const auto* bound = std::get_if<LargestDeviation>(&options.size)) {
     require_positive(bound->distance, "the deviation");
-    surface = make_surface_within(scan, bound->distance, options, result, progress);
+    surface = make_surface_within(scan, *bound, options, result, progress);
   } else {
     const double faces = wanted_faces(options.size, scan);
     require_positive(faces, "the number of triangles");
-    surface = make_surface(scan, std::max(faces, fewest_faces), options, result, progress);
+    SizingOptions sizing;
+    sizing.triangles = std::max(faces, fewest_faces);
+    sizing.sizing = options.sizing;
+    sizing.gradation = options.gradation;
+    std::vector<double> factors;
+    if (options.sizing == Sizing::error) {
+      // A quick first surface shows where edges of the curvature's lengths come too far from the scan.
+      sizing.sizing = Sizing::curvature;
+      factors = error_factors(make_surface(scan, sizing, options, Effort::low, result, progress), scan, error_renewal);
+      sizing.factors = factors;
+    }
+    surface = make_surface(scan, sizing, options, options.effort, result, progress);
   }
   return result;
 }

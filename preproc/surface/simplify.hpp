@@ -26,7 +26,8 @@ struct MeanEdgeLength {
   double length;  // model units
 };
 struct LargestDeviation {
-  double distance;  // two-sided Hausdorff distance to the scan, model units
+  double distance;       // two-sided Hausdorff distance to the scan, model units, bounded for all points
+  bool required = true;  // false: where it is not reached, the nearest surface found is given
 };
 using TargetSize = std::variant<FaceCount, FaceRatio, MeanEdgeLength, LargestDeviation>;
 
@@ -53,7 +54,7 @@ struct SimplifyResult {
   std::size_t faces_before = 0;
   std::size_t faces_after = 0;
   std::size_t crossings_mended = 0;  // pairs of faces that passed through one another before the guard
-  double largest_deviation = 0;      // sampled, two-sided, model units; measured only where the size is one
+  double largest_deviation = 0;      // an upper bound, two-sided, model units; only where the size is a deviation
 };
 
 // `mesh` must be closed, manifold, outward and free of self-intersections (see `repair`); so is the result, with the
@@ -62,7 +63,7 @@ struct SimplifyResult {
 // only what passes through itself afterwards.
 // Throws NotMeshable where neither way gives a valid surface, WrongUsage for options out of range, Cancelled. On any
 // throw `mesh` is as it was. The same bytes for any number of threads. O(n log n).
-// Not guaranteed: a deviation asked for is met by samples of both surfaces, not by a bound on all points.
+// Not guaranteed: that a deviation which is possible is reached, or with the fewest triangles.
 SimplifyResult simplify(SurfaceMesh& mesh, const SimplifyOptions& options = {}, const Progress& progress = {});
 
 // The same for those who need the scan afterwards, to compare with: a copy of it less.
