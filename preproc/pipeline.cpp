@@ -84,11 +84,16 @@ void describe(const EnrichResult& result, StageRecord& record) {
                     {"largest_height", result.largest_height}};
 }
 
-void describe(const SimplifyResult& result, StageRecord& record) {
+void describe(const SimplifyResult& result, const TargetSize& size, StageRecord& record) {
   record.changes = {{"faces_before", static_cast<double>(result.faces_before)},
                     {"faces_after", static_cast<double>(result.faces_after)},
                     {"crossings_mended", static_cast<double>(result.crossings_mended)}};
   if (result.largest_deviation > 0) record.changes.emplace_back("largest_deviation", result.largest_deviation);
+  const auto* aim = std::get_if<LargestDeviation>(&size);
+  if (aim != nullptr && result.largest_deviation > aim->distance)
+    record.remarks.push_back(
+        "the deviation that was aimed at is not reached everywhere: " + std::to_string(aim->distance) +
+        "; smaller triangles (--faces, --edge-length) come nearer");
   if (!result.fallback_reason.empty())
     record.remarks.push_back("the lattice gave way to collapse: " + result.fallback_reason);
 }
@@ -123,7 +128,7 @@ PipelineResult run_pipeline(SurfaceMesh scan, const PipelineOptions& options, co
     log.run("simplify", [&](StageRecord& record) {
       describe(options.enrich ? simplify(result.surface, *options.simplify, progress)
                               : simplify(result.scan, result.surface, *options.simplify, progress),
-               record);
+               options.simplify->size, record);
     });
   if (options.tetrahedralize) {
     log.run("tetrahedralize", [&](StageRecord& record) {
