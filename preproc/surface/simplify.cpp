@@ -211,10 +211,11 @@ void require_positive(double value, const char* what) {
 SurfaceMesh make_surface_within(const ReferenceSurface& scan, const LargestDeviation& wanted,
                                 const SimplifyOptions& options, SimplifyResult& result, const Progress& progress) {
   constexpr int most_trials = 6;
-  constexpr double margin = 0.7;                              // of the bound, aimed at
-  constexpr double first_edge = 12;                           // edge length of the first surface, over the deviation
-  constexpr double most_shrinking = 0.5, most_growing = 1.4;  // of an edge from trial to trial
-  constexpr double shortest_edge = 0.5;                       // over the deviation: shorter ones help nothing
+  constexpr double margin = 0.7;          // of the bound, aimed at
+  constexpr double first_edge = 12;       // edge length of the first surface, over the deviation
+  constexpr double most_shrinking = 0.5;  // of an edge from trial to trial
+  constexpr double most_growing = 2.8;    // after the first, whose lengths are a guess; later ones only shrink
+  constexpr double shortest_edge = 0.5;   // over the deviation: shorter ones help nothing
   // A deviation far below the scan's own facets asks for more; nothing is known there.
   const double most_triangles = 4 * static_cast<double>(scan.mesh.triangles.size());
   std::vector<double> length(scan.mesh.vertices.size(), first_edge * wanted.distance);
@@ -242,7 +243,7 @@ SurfaceMesh make_surface_within(const ReferenceSurface& scan, const LargestDevia
     if (trial > 0 && best_result.largest_deviation <= wanted.distance) break;
     for (std::size_t v = 0; v < length.size(); ++v) {
       const double ratio = std::sqrt(margin * wanted.distance / std::max(deviation[v], 1e-3 * wanted.distance));
-      length[v] = std::max(length[v] * std::clamp(ratio, most_shrinking, trial == 0 ? 2 * most_growing : 1.0),
+      length[v] = std::max(length[v] * std::clamp(ratio, most_shrinking, trial == 0 ? most_growing : 1.0),
                            shortest_edge * wanted.distance);
     }
   }
