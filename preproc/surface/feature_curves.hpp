@@ -33,8 +33,8 @@ struct CornerOptions {
   double jagged_reach = 0.6;
 };
 
-// `sharp`: edges of the scan, see find_features; `edge_length`: wanted, per vertex of the scan, model units. Corners are
-// the vertices at which other than two feature and border edges end, and those where a curve turns sharply.
+// `sharp`: edges of the scan, see find_features; `edge_length`: wanted, per vertex of the scan, model units. Corners
+// are the vertices at which other than two feature and border edges end, and those where a curve turns sharply.
 // Precondition: the scan is manifold. Borders are oriented as their faces are. Linear but for sorts.
 FeatureCurves trace_feature_curves(const SurfaceMesh& scan, const std::vector<FeatureEdge>& sharp,
                                    const std::vector<double>& edge_length, const CornerOptions& options = {});

@@ -1,0 +1,222 @@
+#include "preproc/surface/feature_curves.hpp"
+
+#include "preproc/surface/adjacency.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <span>
+
+namespace scan2fea {
+namespace {
+
+// A curve whose direction changes by more than this from vertex to vertex, in the median, is jagged.
+constexpr double jagged_median_deg = 25;
+
+struct Edge {
+  std::uint32_t from;
+  std::uint32_t to;
+  bool border;
+};
+
+// Sharp edges, then border edges in the direction of their face.
+std::vector<Edge> collect_edges(const SurfaceMesh& scan, const std::vector<FeatureEdge>& sharp) {
+  std::vector<Edge> edges;
+  for (const FeatureEdge& e : sharp) edges.push_back({e[0], e[1], false});
+  const std::vector<Triangle> neighbours = face_neighbours(scan, VertexStars(scan));
+  for (std::size_t f = 0; f < neighbours.size(); ++f) {
+    const Triangle& t = scan.triangles[f];
+    for (std::size_t k = 0; k < 3; ++k)
+      if (neighbours[f][k] == no_face) edges.push_back({t[(k + 1) % 3], t[(k + 2) % 3], true});
+  }
+  return edges;
+}
+
+// The edges at each vertex, ascending.
+class EdgeStars {
+ public:
+  EdgeStars(std::size_t vertices, const std::vector<Edge>& edges) : first_(vertices + 1, 0) {
+    for (const Edge& e : edges) {
+      ++first_[e.from + 1];
+      ++first_[e.to + 1];
+    }
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    edges_.resize(2 * edges.size());
+    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+    for (std::uint32_t i = 0; i < edges.size(); ++i) {
+      edges_[next[edges[i].from]++] = i;
+      edges_[next[edges[i].to]++] = i;
+    }
+  }
+
+  std::span<const std::uint32_t> at(std::uint32_t v) const {
+    return {edges_.data() + first_[v], first_[v + 1] - first_[v]};
+  }
+
+ private:
+  std::vector<std::uint32_t> first_;
+  std::vector<std::uint32_t> edges_;
+};
+
+// Follows edges from corner to corner, and then around the loops that have none.
+class Tracer {
+ public:
+  Tracer(const std::vector<Edge>& edges, const EdgeStars& stars, const std::vector<char>& is_corner)
+      : edges_(edges), stars_(stars), is_corner_(is_corner), used_(edges.size(), 0) {}
+
+  std::vector<FeatureCurve> trace() {
+    std::vector<FeatureCurve> curves;
+    for (std::uint32_t i = 0; i < edges_.size(); ++i) {
+      const Edge& e = edges_[i];
+      if (!used_[i] && is_corner_[e.from]) curves.push_back(follow(e.from, i));
+      if (!used_[i] && is_corner_[e.to]) curves.push_back(backwards(follow(e.to, i)));
+    }
+    for (std::uint32_t i = 0; i < edges_.size(); ++i)
+      if (!used_[i]) curves.push_back(follow(edges_[i].from, i));
+    return curves;
+  }
+
+ private:
+  FeatureCurve follow(std::uint32_t start, std::uint32_t edge) {
+    FeatureCurve curve{.vertices = {start}, .closed = false, .border = edges_[edge].border};
+    std::uint32_t v = start;
+    while (true) {
+      used_[edge] = 1;
+      v = edges_[edge].from == v ? edges_[edge].to : edges_[edge].from;
+      if (v == start && !is_corner_[v]) {
+        curve.closed = true;
+        return curve;
+      }
+      curve.vertices.push_back(v);
+      if (is_corner_[v]) return curve;
+      const auto both = stars_.at(v);
+      edge = both[0] == edge ? both[1] : both[0];
+    }
+  }
+
+  static FeatureCurve backwards(FeatureCurve curve) {
+    std::reverse(curve.vertices.begin(), curve.vertices.end());
+    return curve;
+  }
+
+  const std::vector<Edge>& edges_;
+  const EdgeStars& stars_;
+  const std::vector<char>& is_corner_;
+  std::vector<char> used_;
+};
+
+double turn_deg(const Vec3& before, const Vec3& after) {
+  return std::atan2(before.cross(after).norm(), before.dot(after)) * (180 / std::numbers::pi);
+}
+
+// One traced curve, by arc length.
+class TurnsOfCurve {
+ public:
+  TurnsOfCurve(const SurfaceMesh& scan, const FeatureCurve& curve, const std::vector<double>& edge_length)
+      : scan_(scan), curve_(curve), edge_length_(edge_length), arc_{0} {
+    for (std::size_t i = 0; i + 1 < curve.vertices.size(); ++i)
+      arc_.push_back(arc_.back() + (at(i + 1) - at(i)).norm());
+    total_ = arc_.back() + (curve.closed ? (at(0) - at(curve.vertices.size() - 1)).norm() : 0);
+  }
+
+  // Vertices where it turns by more than the options allow, none nearer to another than the reach.
+  std::vector<std::uint32_t> corners(const CornerOptions& options) const {
+    const bool jagged = median_turn_deg() > jagged_median_deg;
+    const double limit = jagged ? options.jagged_turn_deg : options.turn_deg;
+    const double reach = jagged ? options.jagged_reach : options.reach;
+    struct Candidate {
+      double turn;
+      std::size_t index;
+    };
+    std::vector<Candidate> candidates;
+    const std::size_t inner_first = curve_.closed ? 0 : 1;
+    const std::size_t inner_last = curve_.vertices.size() - (curve_.closed ? 0 : 1);
+    for (std::size_t i = inner_first; i < inner_last; ++i) {
+      const double wide = turn_at(i, reach);
+      // A bend that half the reach does not see is spread out: a curve finer than the edges, and no corner.
+      if (wide > limit && turn_at(i, reach / 2) > 0.75 * wide) candidates.push_back({wide, i});
+    }
+    std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+      return a.turn != b.turn ? a.turn > b.turn : a.index < b.index;
+    });
+    std::vector<std::size_t> chosen;
+    for (const Candidate& c : candidates) {
+      const double distance = reach * edge_length_[curve_.vertices[c.index]];
+      const bool clear = std::all_of(chosen.begin(), chosen.end(),
+                                     [&](std::size_t other) { return arc_distance(c.index, other) > distance; });
+      if (clear) chosen.push_back(c.index);
+    }
+    std::vector<std::uint32_t> vertices;
+    for (const std::size_t i : chosen) vertices.push_back(curve_.vertices[i]);
+    return vertices;
+  }
+
+ private:
+  const Vec3& at(std::size_t i) const { return scan_.vertices[curve_.vertices[i]]; }
+
+  double arc_distance(std::size_t i, std::size_t j) const {
+    const double d = std::abs(arc_[i] - arc_[j]);
+    return curve_.closed ? std::min(d, total_ - d) : d;
+  }
+
+  // At this arc length; beyond the ends of an open curve, its ends.
+  Vec3 point(double s) const {
+    const std::size_t n = curve_.vertices.size();
+    if (curve_.closed) {
+      s -= total_ * std::floor(s / total_);
+    } else if (s <= 0 || s >= total_) {
+      return s <= 0 ? at(0) : at(n - 1);
+    }
+    const auto after = static_cast<std::size_t>(std::upper_bound(arc_.begin(), arc_.end(), s) - arc_.begin());
+    const std::size_t i = after - 1;
+    const double end = after < n ? arc_[after] : total_;
+    const double t = end > arc_[i] ? std::min(1.0, (s - arc_[i]) / (end - arc_[i])) : 0;
+    return (1 - t) * at(i) + t * at(after % n);
+  }
+
+  double turn_at(std::size_t i, double reach) const {
+    const double h = reach * edge_length_[curve_.vertices[i]];
+    return turn_deg(at(i) - point(arc_[i] - h), point(arc_[i] + h) - at(i));
+  }
+
+  double median_turn_deg() const {
+    const std::size_t n = curve_.vertices.size();
+    std::vector<double> turns;
+    for (std::size_t i = curve_.closed ? 0 : 1; i + (curve_.closed ? 0 : 1) < n; ++i)
+      turns.push_back(turn_deg(at(i) - at((i + n - 1) % n), at((i + 1) % n) - at(i)));
+    if (turns.empty()) return 0;
+    const auto middle = turns.begin() + static_cast<std::ptrdiff_t>(turns.size() / 2);
+    std::nth_element(turns.begin(), middle, turns.end());
+    return *middle;
+  }
+
+  const SurfaceMesh& scan_;
+  const FeatureCurve& curve_;
+  const std::vector<double>& edge_length_;
+  std::vector<double> arc_;  // at each vertex, from the first
+  double total_;
+};
+
+}  // namespace
+
+FeatureCurves trace_feature_curves(const SurfaceMesh& scan, const std::vector<FeatureEdge>& sharp,
+                                   const std::vector<double>& edge_length, const CornerOptions& options) {
+  const std::vector<Edge> edges = collect_edges(scan, sharp);
+  const EdgeStars stars(scan.vertices.size(), edges);
+  std::vector<char> is_corner(scan.vertices.size(), 0);
+  for (std::uint32_t v = 0; v < is_corner.size(); ++v) {
+    const auto at = stars.at(v);
+    // Where a crease goes on as a border, the curve changes its kind.
+    is_corner[v] = !at.empty() && (at.size() != 2 || edges[at[0]].border != edges[at[1]].border);
+  }
+  for (const FeatureCurve& curve : Tracer(edges, stars, is_corner).trace())
+    for (const std::uint32_t v : TurnsOfCurve(scan, curve, edge_length).corners(options)) is_corner[v] = 1;
+
+  FeatureCurves result{.curves = Tracer(edges, stars, is_corner).trace(), .corners = {}};
+  for (std::uint32_t v = 0; v < is_corner.size(); ++v)
+    if (is_corner[v]) result.corners.push_back(v);
+  return result;
+}
+
+}  // namespace scan2fea
