@@ -22,11 +22,14 @@ Components find_components(const SurfaceMesh& mesh) {
   return components;
 }
 
-std::vector<long> euler_characteristics(const SurfaceMesh& mesh, const Components& components) {
-  std::vector<long> vertices(components.count, 0), faces(components.count, 0);
+std::vector<long> euler_characteristics(const SurfaceMesh& mesh, const Components& components,
+                                        std::span<const FeatureEdge> border) {
+  // E = (3 F + border) / 2.
+  std::vector<long> vertices(components.count, 0), twice_edges_less_faces(components.count, 0);
   for (const std::uint32_t c : components.of_vertex) ++vertices[c];
-  for (const Triangle& t : mesh.triangles) ++faces[components.of_vertex[t[0]]];
-  for (std::size_t c = 0; c < vertices.size(); ++c) vertices[c] -= faces[c] / 2;
+  for (const Triangle& t : mesh.triangles) ++twice_edges_less_faces[components.of_vertex[t[0]]];
+  for (const FeatureEdge& e : border) ++twice_edges_less_faces[components.of_vertex[e[0]]];
+  for (std::size_t c = 0; c < vertices.size(); ++c) vertices[c] -= twice_edges_less_faces[c] / 2;
   return vertices;
 }
 

@@ -2,8 +2,10 @@
 #pragma once
 
 #include "preproc/mesh/surface_mesh.hpp"
+#include "preproc/surface/feature_edge.hpp"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace scan2fea {
@@ -16,7 +18,9 @@ struct Components {
 // Connected by sharing vertices; a vertex without a triangle is a component of its own. Nearly linear.
 Components find_components(const SurfaceMesh& mesh);
 
-// V - E + F per component, where every edge has two triangles: 2 - 2 genus of a closed manifold one. Linear.
-std::vector<long> euler_characteristics(const SurfaceMesh& mesh, const Components& components);
+// V - E + F per component, where every edge has two triangles but those of `border`, which have one: 2 - 2 genus -
+// borders of a manifold one. Linear.
+std::vector<long> euler_characteristics(const SurfaceMesh& mesh, const Components& components,
+                                        std::span<const FeatureEdge> border = {});
 
 }  // namespace scan2fea

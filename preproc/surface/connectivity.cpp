@@ -1,5 +1,6 @@
 #include "preproc/surface/connectivity.hpp"
 
+#include "preproc/surface/feature_edge.hpp"
 #include "preproc/surface/halfedge_mesh.hpp"
 
 #include <algorithm>
@@ -7,7 +8,9 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <numbers>
 #include <queue>
+#include <set>
 
 namespace scan2fea {
 namespace {
@@ -35,12 +38,18 @@ bool turned_too_far(const Vec3& before, const Vec3& after) {
 
 class Cleaner {
  public:
-  Cleaner(const SurfaceMesh& mesh, std::vector<double>& edge_length)
-      : mesh_(mesh), edge_length_(edge_length), merged_into_(mesh.vertices.size()) {
+  Cleaner(const SurfaceMesh& mesh, std::vector<double>& edge_length, std::span<const std::uint32_t> welded)
+      : mesh_(mesh), edge_length_(edge_length), merged_into_(mesh.vertices.size()), welded_(welded) {
     valence_.resize(mesh.vertices.size());
+    ideal_valence_.resize(mesh.vertices.size(), 6);
     for (Index v = 0; v < valence_.size(); ++v) {
       valence_[v] = static_cast<int>(mesh_.valence(v));
       merged_into_[v] = v;
+      if (mesh_.is_alive(v) && mesh_.is_border_vertex(v)) ideal_valence_[v] = ideal_border_valence(v);
+    }
+    for (Index h = 0; h < 3 * mesh_.face_slots(); ++h) {
+      const Index a = mesh_.origin(h), b = mesh_.target(h);
+      if (is_chord(a, b)) chords_.insert(chord(a, b));
     }
   }
 
@@ -122,13 +131,30 @@ class Cleaner {
     return {mesh_.origin(h), mesh_.target(h), mesh_.origin(HalfedgeMesh::prev(h)), mesh_.origin(HalfedgeMesh::prev(o))};
   }
 
+  // Of an edge from the inside to the border, the side that starts at the border: that vertex is kept.
+  Index border_first(Index h) const { return mesh_.is_border_vertex(mesh_.target(h)) ? mesh_.opposite(h) : h; }
+
   // Interior edges, from one of their sides.
   bool is_edge(Index h) const {
     return mesh_.is_face_alive(HalfedgeMesh::face(h)) && !mesh_.is_border(h) && h < mesh_.opposite(h);
   }
 
-  int ideal_valence(Index v) const { return mesh_.is_border_vertex(v) ? 4 : 6; }
-  int irregularity(Index v, int change) const { return std::abs(valence_[v] + change - ideal_valence(v)); }
+  int ideal_border_valence(Index v) const {
+    double angle = 0;
+    mesh_.for_each_outgoing(v, [&](Index h) {
+      const Vec3 a = mesh_.points[mesh_.target(h)] - mesh_.points[v];
+      const Vec3 b = mesh_.points[mesh_.origin(HalfedgeMesh::prev(h))] - mesh_.points[v];
+      angle += std::atan2(a.cross(b).norm(), a.dot(b));
+    });
+    return 1 + std::max(1, static_cast<int>(std::lround(angle * 3 / std::numbers::pi)));
+  }
+  int irregularity(Index v, int change) const { return std::abs(valence_[v] + change - ideal_valence_[v]); }
+
+  // Between border vertices of a cut surface; another patch may have the same one.
+  bool is_chord(Index a, Index b) const {
+    return !welded_.empty() && mesh_.is_border_vertex(a) && mesh_.is_border_vertex(b);
+  }
+  FeatureEdge chord(Index a, Index b) const { return feature_edge(welded_[a], welded_[b]); }
   int squared_irregularity(Index v, int change) const { return irregularity(v, change) * irregularity(v, change); }
 
   double relative_length(Index h) const {
@@ -138,7 +164,7 @@ class Cleaner {
 
   // How the sum of |valence - 6| changes.
   int collapse_irregularity(Index h) const {
-    const auto [a, b, c, d] = quad(h);
+    const auto [a, b, c, d] = quad(border_first(h));
     return irregularity(a, valence_[b] - 4) + irregularity(c, -1) + irregularity(d, -1) - irregularity(a, 0) -
            irregularity(b, 0) - irregularity(c, 0) - irregularity(d, 0);
   }
@@ -149,6 +175,7 @@ class Cleaner {
 
   bool flip_is_better(Index h) const {
     const auto [a, b, c, d] = quad(h);
+    if (is_chord(c, d) && chords_.contains(chord(c, d))) return false;
     int change = 0;
     for (const Index v : {a, b}) change += squared_irregularity(v, -1) - squared_irregularity(v, 0);
     for (const Index v : {c, d}) change += squared_irregularity(v, 1) - squared_irregularity(v, 0);
@@ -170,6 +197,8 @@ class Cleaner {
 
   void flip(Index h) {
     const auto [a, b, c, d] = quad(h);
+    if (is_chord(a, b)) chords_.erase(chord(a, b));
+    if (is_chord(c, d)) chords_.insert(chord(c, d));
     mesh_.flip(h);
     --valence_[a];
     --valence_[b];
@@ -191,7 +220,7 @@ class Cleaner {
     const auto [qa, qb, c, d] = quad(h);
     for (const Index v : {c, d})
       if (valence_[v] <= (mesh_.is_border_vertex(v) ? 3 : 4)) return false;
-    if (!mesh_.can_collapse(h)) return false;
+    if (!mesh_.can_collapse(h) || makes_chord(a, b)) return false;
     const Vec3 to = merged_point(h);
     for (const auto& [v, other] : {std::pair{a, b}, std::pair{b, a}}) {
       bool sound = true;
@@ -208,10 +237,21 @@ class Cleaner {
     return true;
   }
 
+  bool makes_chord(Index a, Index b) const {
+    if (welded_.empty() || mesh_.is_border_vertex(a) == mesh_.is_border_vertex(b)) return false;
+    const Index on_border = mesh_.is_border_vertex(a) ? a : b, inner = on_border == a ? b : a;
+    bool made = false;
+    mesh_.for_each_neighbour(inner, [&](Index v) {
+      made = made || (v != on_border && mesh_.is_border_vertex(v) && !mesh_.are_neighbours(v, on_border));
+    });
+    return made;
+  }
+
   void collapse(Index h) {
+    h = border_first(h);
     const auto [a, b, c, d] = quad(h);
     const Vec3 to = merged_point(h);
-    edge_length_[a] = 0.5 * (edge_length_[a] + edge_length_[b]);
+    if (!mesh_.is_border_vertex(a)) edge_length_[a] = 0.5 * (edge_length_[a] + edge_length_[b]);
     valence_[a] += valence_[b] - 4;
     --valence_[c];
     --valence_[d];
@@ -225,6 +265,7 @@ class Cleaner {
     const auto [a, b, c, d] = quad(h);
     edge_length_.push_back(0.5 * (edge_length_[a] + edge_length_[b]));
     valence_.push_back(4);
+    ideal_valence_.push_back(6);
     ++valence_[c];
     ++valence_[d];
     merged_into_.push_back(mesh_.split_edge(h, 0.5 * (mesh_.points[a] + mesh_.points[b])));
@@ -255,8 +296,10 @@ class Cleaner {
 
   HalfedgeMesh mesh_;
   std::vector<double>& edge_length_;
-  std::vector<int> valence_;
+  std::vector<int> valence_, ideal_valence_;
   std::vector<Index> merged_into_;
+  std::span<const std::uint32_t> welded_;
+  std::set<FeatureEdge> chords_;  // see is_chord
 };
 
 }  // namespace
@@ -264,7 +307,7 @@ class Cleaner {
 ConnectivityResult improve_connectivity(SurfaceMesh& mesh, std::vector<double>& edge_length,
                                         const ConnectivityOptions& options) {
   const std::size_t old_vertices = mesh.vertices.size();
-  Cleaner cleaner(mesh, edge_length);
+  Cleaner cleaner(mesh, edge_length, options.welded);
   for (int round = 0; round < options.rounds; ++round) {
     cleaner.flip_until_settled();
     cleaner.collapse_for_valence();

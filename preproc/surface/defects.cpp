@@ -34,7 +34,8 @@ double smallest_angle_deg(const Vec3& a, const Vec3& b, const Vec3& c) {
   return std::min({angle(a, b, c), angle(b, c, a), angle(c, a, b)}) * 180 / std::numbers::pi;
 }
 
-std::vector<std::uint32_t> scan_vertices_of_faces(const SurfaceMesh& mesh, const ReferenceSurface& scan) {
+std::vector<std::uint32_t> scan_vertices_of_faces(const SurfaceMesh& mesh, const ReferenceSurface& scan,
+                                                  const std::vector<std::uint32_t>& patch_of_face) {
   // The mean of the corners' normals: where a single face is inverted it still tells the side.
   const std::vector<Vec3> at_vertices = vertex_normals(mesh);
   std::vector<Vec3> centroids;
@@ -46,7 +47,9 @@ std::vector<std::uint32_t> scan_vertices_of_faces(const SurfaceMesh& mesh, const
     normals.push_back(at_vertices[t[0]] + at_vertices[t[1]] + at_vertices[t[2]]);
   }
   const double spacing = std::sqrt(scan.area / static_cast<double>(mesh.triangles.size()));
-  return nearest_vertices(centroids, normals, scan.mesh, spacing);
+  return patch_of_face.empty()
+             ? nearest_vertices(centroids, normals, scan.mesh, spacing)
+             : nearest_vertices_of_patch(centroids, normals, patch_of_face, scan.mesh, scan.patch_of_vertex, spacing);
 }
 
 SurfaceDefects find_defects(const SurfaceMesh& mesh, const ReferenceSurface& scan,

@@ -20,8 +20,10 @@ struct SurfaceDefects {
   bool meshable() const { return crossings.empty() && inverted.empty(); }
 };
 
-// Per face of `mesh`, the vertex of the scan nearest to its centroid on the same side of the body.
-std::vector<std::uint32_t> scan_vertices_of_faces(const SurfaceMesh& mesh, const ReferenceSurface& scan);
+// Per face of `mesh`, the vertex of the scan nearest to its centroid on the same side of the body; where
+// `patch_of_face` is not empty (see FeatureNet), on its patch.
+std::vector<std::uint32_t> scan_vertices_of_faces(const SurfaceMesh& mesh, const ReferenceSurface& scan,
+                                                  const std::vector<std::uint32_t>& patch_of_face = {});
 
 // A face counts as inverted if its normal opposes the scan's everywhere within an edge length of its centroid: where
 // the scan turns over in less than that, as in the folds of an ear, no face can follow it and none is wrong. `near`:

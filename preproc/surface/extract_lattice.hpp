@@ -13,6 +13,7 @@ namespace scan2fea {
 struct ExtractedLattice {
   SurfaceMesh mesh;
   std::vector<std::uint32_t> vertex_of_node;  // per vertex of the refined scan, the vertex of `mesh` that it belongs to
+  FeatureNet net;                             // empty without features
   bool contracted = false;                    // see below
 };
 
@@ -22,9 +23,13 @@ struct ExtractedLattice {
 // Where faces do not meet as on a surface, the smallest part there goes to its neighbour as well, and so on. Where that
 // does not end in a closed manifold whose components have the genera of the scan's (a limb or a handle is thinner than
 // an edge length), the parts are contracted edge by edge instead, as far as the link condition allows. That always
-// keeps the topology, at the price of a few vertices more than the lattice has there. Precondition: the scan is a
-// closed manifold, graph is the finest level of its graph. Nearly linear; deterministic.
-ExtractedLattice extract_lattice(const RefinedScan& scan, const GraphLevel& graph, const OrientationField& orientation,
-                                 const PositionField& position);
+// keeps the topology, at the price of a few vertices more than the lattice has there.
+// Each sample of a feature is a vertex, its nodes on all sides one part with it, and keeps its place; no two become
+// one. Where features are so dense that an edge of the result between two neighbouring samples is missing, that counts
+// as not ending in a manifold.
+// Precondition: the scan is a manifold, closed but for its features; graph is the finest level of its graph. Nearly
+// linear; deterministic.
+ExtractedLattice extract_lattice(const RefinedScan& scan, const Anchors& anchors, const FieldGraph& graph,
+                                 const OrientationField& orientation, const PositionField& position);
 
 }  // namespace scan2fea

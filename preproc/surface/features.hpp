@@ -2,16 +2,13 @@
 #pragma once
 
 #include "preproc/mesh/surface_mesh.hpp"
+#include "preproc/surface/feature_edge.hpp"
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 namespace scan2fea {
-
-// Vertices of the scan, the smaller one first.
-using FeatureEdge = std::array<std::uint32_t, 2>;
 
 struct FeatureOptions {
   // Edges whose faces' normals differ by more are sharp, degrees, 0 to 180; unset: none is. 40: a fillet or a cylinder

@@ -89,6 +89,21 @@ GraphLevel finest_level(const RefinedScan& scan) {
   return level;
 }
 
+// Against edge weights of about 0.6: a lattice that turns away from its borders costs 0.03 in the mean edge ratio.
+constexpr double guide_weight = 20;
+
+void tie_to_features(const Anchors& anchors, GraphLevel& level) {
+  level.anchor = anchors.sample_of_node;
+  level.guide.assign(level.size(), 0);
+  for (const NodeTangent& t : anchors.tangents) {
+    const Complex along = TangentFrame(level.normals[t.node]).coordinates(t.along);
+    const double size = length(along);
+    if (size > 0) level.guide[t.node] += size * sixth_power(along / size);
+  }
+  for (Complex& g : level.guide)
+    if (g != Complex(0)) g = guide_weight * unit(g);
+}
+
 // Nodes of an independent set that cannot be enlarged become the coarse nodes; the others join one of them.
 void aggregate(GraphLevel& fine, std::uint32_t& coarse_count) {
   const std::size_t n = fine.size();
@@ -154,7 +169,26 @@ void coarse_edges(const GraphLevel& fine, const Members& members, GraphLevel& co
   }
 }
 
-GraphLevel coarser_level(GraphLevel& fine) {
+// Of the anchors below a node, the nearest.
+void inherit_ties(const std::vector<Vec3>& places, const GraphLevel& fine, const Members& members, GraphLevel& coarse) {
+  coarse.anchor.assign(coarse.size(), no_sample);
+  coarse.guide.assign(coarse.size(), 0);
+  for (std::size_t c = 0; c < coarse.size(); ++c) {
+    const TangentFrame here(coarse.normals[c]);
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const std::uint32_t i : members.of(c)) {
+      if (fine.guide[i] != Complex(0))
+        coarse.guide[c] += fine.guide[i] * sixth_power(transport(TangentFrame(fine.normals[i]), here));
+      if (fine.anchor[i] == no_sample) continue;
+      const double distance = (places[fine.anchor[i]] - coarse.positions[c]).squaredNorm();
+      if (distance >= nearest) continue;
+      nearest = distance;
+      coarse.anchor[c] = fine.anchor[i];
+    }
+  }
+}
+
+GraphLevel coarser_level(const std::vector<Vec3>& places, GraphLevel& fine) {
   std::uint32_t count = 0;
   aggregate(fine, count);
   const Members members(fine, count);
@@ -178,16 +212,21 @@ GraphLevel coarser_level(GraphLevel& fine) {
     }
   });
   coarse_edges(fine, members, coarse);
+  if (!fine.anchor.empty()) inherit_ties(places, fine, members, coarse);
   return coarse;
 }
 
 }  // namespace
 
-FieldGraph build_field_graph(const RefinedScan& scan) {
+FieldGraph build_field_graph(const RefinedScan& scan, const Anchors& anchors) {
   FieldGraph graph;
   graph.levels.push_back(finest_level(scan));
+  if (!anchors.empty()) {
+    tie_to_features(anchors, graph.levels.front());
+    for (const FeatureSample& sample : anchors.samples) graph.anchors.push_back(sample.position);
+  }
   while (graph.levels.back().size() > coarse_enough) {
-    GraphLevel coarse = coarser_level(graph.levels.back());
+    GraphLevel coarse = coarser_level(graph.anchors, graph.levels.back());
     if (10 * coarse.size() > 9 * graph.levels.back().size()) {  // many small components
       graph.levels.back().parent.clear();
       break;

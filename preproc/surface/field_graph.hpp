@@ -3,7 +3,8 @@
 // in place of pairs, which coarsen faster and more evenly.
 #pragma once
 
-#include "preproc/surface/refined_scan.hpp"
+#include "preproc/surface/anchored_scan.hpp"
+#include "preproc/surface/tangent_frame.hpp"
 
 #include <cstdint>
 #include <span>
@@ -22,6 +23,10 @@ struct GraphLevel {
   std::vector<std::uint32_t> neighbours;
   std::vector<float> weights;         // cotangent weights on the finest level, kept positive; sums of them above
   std::vector<std::uint32_t> parent;  // the node of the next coarser level; empty on the coarsest
+  // Of nodes on features, or with such below them; both empty without features. The lattice has a point at the anchor's
+  // place; the guide is the sixth power of the direction that it runs in, in the node's TangentFrame, times a weight.
+  std::vector<std::uint32_t> anchor;  // no_sample elsewhere
+  std::vector<Complex> guide;         // 0 elsewhere
 
   std::size_t size() const { return positions.size(); }
 
@@ -35,13 +40,14 @@ struct GraphLevel {
 
 struct FieldGraph {
   std::vector<GraphLevel> levels;  // finest first
+  std::vector<Vec3> anchors;       // places, by sample
 };
 
 // A coarse node stands for a member of a maximal independent set and those of its neighbours that are tied to it most
 // strongly, none across an angle of more than 70° between normals (so that the two sides of a thin wall or a sharp edge
 // do not become one). Coarsening ends at about 100 nodes, or where it stalls.
 // Precondition: manifold, with or without borders. Linear; about 130 bytes per triangle of the finest level.
-FieldGraph build_field_graph(const RefinedScan& scan);
+FieldGraph build_field_graph(const RefinedScan& scan, const Anchors& anchors = {});
 
 // The mean of log_length over the members of each coarse node, after the finest level's has changed.
 void restrict_log_length(FieldGraph& graph);

@@ -66,4 +66,18 @@ inline void add_derivatives(const FaceFit& fit, std::size_t i, const std::array<
   hessian.diagonal().array() += 2 * fit.point[i];
 }
 
+// Sum w (distance)^2 once the corners have moved, less what it was when the moments were taken.
+inline double change_of_fit(const FaceFit& fit, const std::array<Vec3, 3>& moved) {
+  double change = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double along = fit.normal.dot(moved[i]);
+    change -= 2 * along * fit.plane_residual[i];
+    for (std::size_t j = 0; j < 3; ++j) change += fit.plane[corner_pair(i, j)] * along * fit.normal.dot(moved[j]);
+    if (!fit.has_points) continue;
+    change -= 2 * moved[i].dot(fit.point_residual[i]);
+    for (std::size_t j = 0; j < 3; ++j) change += fit.point[corner_pair(i, j)] * moved[i].dot(moved[j]);
+  }
+  return change;
+}
+
 }  // namespace scan2fea

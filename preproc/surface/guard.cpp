@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
 namespace scan2fea {
@@ -40,9 +41,27 @@ void remove_fixed(std::vector<bool>& movable, const VertexConstraints& constrain
   }
 }
 
+// Angles between two edges on lines of the net are not the surface's to mend.
+void drop_own_angles(SurfaceDefects& defects, const SurfaceMesh& mesh, const std::vector<FeatureEdge>& edges,
+                     double least_angle_deg) {
+  const auto is_on_line = [&](std::uint32_t a, std::uint32_t b) {
+    return std::binary_search(edges.begin(), edges.end(), feature_edge(a, b));
+  };
+  std::erase_if(defects.small_angles, [&](std::uint32_t f) {
+    const Triangle& t = mesh.triangles[f];
+    bool own = false;
+    for (std::size_t k = 0; k < 3; ++k)
+      own = own || (is_on_line(t[k], t[(k + 1) % 3]) && is_on_line(t[k], t[(k + 2) % 3]));
+    if (own)
+      defects.missing_angles_deg -=
+          least_angle_deg - smallest_angle_deg(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
+    return own;
+  });
+}
+
 // Once more weight on shape, where `movable` is set.
-void refit(SurfaceMesh& mesh, const ReferenceSurface& scan, const std::vector<bool>& movable, double fidelity,
-           const std::vector<std::uint32_t>& nearest_to_scan) {
+void refit(SurfaceMesh& mesh, FeatureNet& net, const ReferenceSurface& scan, const std::vector<bool>& movable,
+           double fidelity, const std::optional<std::vector<std::uint32_t>>& nearest_to_scan) {
   ShapeFitOptions fit;
   fit.nearest_vertex_of_scan_vertex = nearest_to_scan;
   fit.fidelity_of_diagonal = fidelity;
@@ -51,12 +70,12 @@ void refit(SurfaceMesh& mesh, const ReferenceSurface& scan, const std::vector<bo
   for (std::size_t v = 0; v < movable.size(); ++v) {
     fit.constraints[v] = movable[v] ? VertexConstraint::free : VertexConstraint::fixed;
   }
-  optimise_shape_and_fit(mesh, scan, fit);
+  optimise_shape_and_fit(mesh, net, scan, fit);
 }
 
-void mend(SurfaceMesh& mesh, const ReferenceSurface& scan, const SurfaceDefects& defects, int round,
+void mend(SurfaceMesh& mesh, FeatureNet& net, const ReferenceSurface& scan, const SurfaceDefects& defects, int round,
           const GuardOptions& options, const std::vector<std::uint32_t>& near,
-          const std::vector<std::uint32_t>& nearest_to_scan) {
+          const std::optional<std::vector<std::uint32_t>>& nearest_to_scan) {
   std::vector<bool> movable = vertices_around(mesh, faces_of(defects), rings_of_repair + round / 2);
   remove_fixed(movable, options.constraints);
   if (!defects.meshable()) {
@@ -72,7 +91,8 @@ void mend(SurfaceMesh& mesh, const ReferenceSurface& scan, const SurfaceDefects&
   } else if (round > 0) {
     flip_worst(mesh, scan, near, movable);
   }
-  refit(mesh, scan, movable, std::min(0.05, options.fidelity_of_diagonal * std::pow(1.5, round + 1)), nearest_to_scan);
+  refit(mesh, net, scan, movable, std::min(0.05, options.fidelity_of_diagonal * std::pow(1.5, round + 1)),
+        nearest_to_scan);
   // Last, since the fit pulls crossing sheets back to where they crossed.
   if (!defects.crossings.empty()) {
     push_apart(mesh, scan, near, find_self_intersections(mesh), options.constraints);
@@ -83,6 +103,18 @@ void mend(SurfaceMesh& mesh, const ReferenceSurface& scan, const SurfaceDefects&
 
 GuardResult guard_surface(SurfaceMesh& mesh, const ReferenceSurface& scan, const GuardOptions& options,
                           const Progress& progress) {
+  return guard_surface(mesh, FeatureNet{}, scan, options, progress);
+}
+
+GuardResult guard_surface(SurfaceMesh& mesh, const FeatureNet& given_net, const ReferenceSurface& scan,
+                          const GuardOptions& given_options, const Progress& progress) {
+  GuardOptions options = given_options;
+  FeatureNet net = given_net;
+  const std::vector<FeatureEdge> lines = edges_of(net);
+  if (!net.empty()) {
+    options.constraints.resize(mesh.vertices.size(), VertexConstraint::free);
+    for (const FeatureEdge& e : lines) options.constraints[e[0]] = options.constraints[e[1]] = VertexConstraint::fixed;
+  }
   if (!(options.least_angle_deg >= 0 && options.least_angle_deg < 60) || options.rounds < 1) {
     throw WrongUsage(
         {.what = "guard options out of range",
@@ -91,26 +123,32 @@ GuardResult guard_surface(SurfaceMesh& mesh, const ReferenceSurface& scan, const
          .limit = "0 to 60 degrees, at least 1 round",
          .advice = ""});
   }
-  if (options.keep_volume) preserve_volume(mesh, scan.mesh, options.constraints);
+  if (options.keep_volume) preserve_volume(mesh, scan.whole, options.constraints);
   GuardResult result;
-  std::vector<std::uint32_t> near = scan_vertices_of_faces(mesh, scan);
-  result.before = find_defects(mesh, scan, near, options.least_angle_deg);
+  std::vector<std::uint32_t> near = scan_vertices_of_faces(mesh, scan, net.patch_of_face);
+  const auto find = [&] {
+    SurfaceDefects defects = find_defects(mesh, scan, near, options.least_angle_deg);
+    drop_own_angles(defects, mesh, lines, options.least_angle_deg);
+    return defects;
+  };
+  result.before = find();
   result.after = result.before;
   if (result.before.none()) return result;
 
   const double edge = std::sqrt(scan.area / static_cast<double>(mesh.triangles.size()));
-  const std::vector<std::uint32_t> nearest_to_scan =
-      nearest_vertices(scan.mesh.vertices, scan.vertex_normals, mesh, edge);
+  // With features the fit finds them itself, patch by patch.
+  std::optional<std::vector<std::uint32_t>> nearest_to_scan;
+  if (net.empty()) nearest_to_scan = nearest_vertices(scan.mesh.vertices, scan.vertex_normals, mesh, edge);
   const SurfaceMesh given = mesh;
   SurfaceMesh best = mesh;
   SurfaceDefects now = result.before;
   int rounds_without_gain = 0;
   for (; result.rounds < options.rounds && rounds_without_gain < most_rounds_without_gain; ++result.rounds) {
     progress("guard", static_cast<double>(result.rounds) / options.rounds);
-    mend(mesh, scan, now, result.rounds, options, near, nearest_to_scan);
-    if (options.keep_volume) preserve_volume(mesh, scan.mesh, options.constraints);
-    near = scan_vertices_of_faces(mesh, scan);
-    now = find_defects(mesh, scan, near, options.least_angle_deg);
+    mend(mesh, net, scan, now, result.rounds, options, near, nearest_to_scan);
+    if (options.keep_volume) preserve_volume(mesh, scan.whole, options.constraints);
+    near = scan_vertices_of_faces(mesh, scan, net.patch_of_face);
+    now = find();
     ++rounds_without_gain;
     if (is_better(now, result.after)) {
       result.after = now;

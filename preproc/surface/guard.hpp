@@ -10,6 +10,7 @@
 
 #include "preproc/mesh/progress.hpp"
 #include "preproc/surface/defects.hpp"
+#include "preproc/surface/feature_net.hpp"
 #include "preproc/surface/reference_surface.hpp"
 #include "preproc/surface/vertex_constraint.hpp"
 
@@ -42,5 +43,10 @@ struct GuardResult {
 // throws. A sound surface costs one check: O(n log n).
 GuardResult guard_surface(SurfaceMesh& mesh, const ReferenceSurface& scan, const GuardOptions& options = {},
                           const Progress& progress = {});
+
+// The same with features: vertices on the net's lines stay where they are, and angles between two lines are the part's
+// own.
+GuardResult guard_surface(SurfaceMesh& mesh, const FeatureNet& net, const ReferenceSurface& scan,
+                          const GuardOptions& options = {}, const Progress& progress = {});
 
 }  // namespace scan2fea

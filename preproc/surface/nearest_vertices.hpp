@@ -14,4 +14,11 @@ namespace scan2fea {
 std::vector<std::uint32_t> nearest_vertices(const std::vector<Vec3>& points, const std::vector<Vec3>& normals,
                                             const SurfaceMesh& among, double spacing);
 
+// The same where only vertices of a point's own patch will do: patches as numbers, per point and per vertex. A point
+// whose patch has no vertex gets the nearest of all.
+std::vector<std::uint32_t> nearest_vertices_of_patch(const std::vector<Vec3>& points, const std::vector<Vec3>& normals,
+                                                     const std::vector<std::uint32_t>& patch_of_point,
+                                                     const SurfaceMesh& among,
+                                                     const std::vector<std::uint32_t>& patch_of_vertex, double spacing);
+
 }  // namespace scan2fea

@@ -10,11 +10,6 @@ namespace {
 using SmallComplex =
     std::complex<float>;  // two per edge: half the memory traffic of a sweep, and enough for a direction
 
-Complex sixth_power(const Complex& z) {
-  const Complex square = z * z;
-  return square * square * square;
-}
-
 // Per edge, what e^{6 i theta} of the neighbour is multiplied with to be compared with the node's own.
 std::vector<SmallComplex> transports(const GraphLevel& level) {
   const std::vector<Complex> gradient = log_length_gradient(level);
@@ -49,6 +44,10 @@ Complex arbitrary_direction(std::size_t node) {
   return std::polar(1.0, static_cast<double>((x ^ (x >> 31)) & 0xffffU) * (6.283185307179586 / 65536));
 }
 
+Complex guide(const GraphLevel& level, std::size_t node) {
+  return level.guide.empty() ? Complex(0) : level.guide[node];
+}
+
 // Gauss-Seidel inside fixed blocks, the values of other blocks taken from before the sweep: the same for any number of
 // threads, and nearly as fast to converge, since blocks are contiguous in space.
 void sweep(const GraphLevel& level, const std::vector<SmallComplex>& carried, std::vector<Complex>& before,
@@ -56,7 +55,7 @@ void sweep(const GraphLevel& level, const std::vector<SmallComplex>& carried, st
   before = z;
   for_each_block(level.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
-      Complex sum = 0;
+      Complex sum = guide(level, i);
       for (std::uint32_t e = level.first[i]; e < level.first[i + 1]; ++e) {
         const std::uint32_t j = level.neighbours[e];
         const Complex& other = j >= first && j < last ? z[j] : before[j];
@@ -68,15 +67,16 @@ void sweep(const GraphLevel& level, const std::vector<SmallComplex>& carried, st
 }
 
 // The smoothest field of all on the coarsest level, by inverse iteration in effect: sweeps without making each value
-// unit (which would freeze singularities where the start has put them), the whole scaled back after each.
+// unit (which would freeze singularities where the start has put them), the whole scaled back after each. Guided nodes
+// set the scale where there are some: then it is a linear system instead.
 void solve_coarsest(const GraphLevel& level, const std::vector<SmallComplex>& carried, int sweeps,
                     std::vector<Complex>& z) {
   for (std::size_t i = 0; i < level.size(); ++i) z[i] = arbitrary_direction(i);
   for (int s = 0; s < sweeps; ++s) {
     double squares = 0;
     for (std::size_t i = 0; i < level.size(); ++i) {
-      Complex sum = 0;
-      double weight = 0;
+      Complex sum = guide(level, i);
+      double weight = std::abs(sum);
       for (std::uint32_t e = level.first[i]; e < level.first[i + 1]; ++e) {
         const double w = static_cast<double>(level.weights[e]);
         weight += w;
@@ -86,7 +86,7 @@ void solve_coarsest(const GraphLevel& level, const std::vector<SmallComplex>& ca
       squares += std::norm(z[i]);
     }
     const double scale = std::sqrt(static_cast<double>(level.size()) / squares);
-    if (std::isfinite(scale))
+    if (level.guide.empty() && std::isfinite(scale))
       for (Complex& value : z) value *= scale;
   }
   for (Complex& value : z) value = unit(value);

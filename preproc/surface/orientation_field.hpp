@@ -24,7 +24,7 @@ struct OrientationField {
 // by the smallest rotation between the two normals and by the turn that goes with a change of the edge length. A
 // lattice whose edge length h varies is a conformal map, whose rotation and ln h are harmonic conjugates:
 // grad theta = J grad ln h, J the quarter turn. Without that turn the lattice gets more irregular vertices.
-// Deterministic for any number of threads. Linear.
+// Along features the field follows them (GraphLevel::guide). Deterministic for any number of threads. Linear.
 OrientationField compute_orientation_field(const FieldGraph& graph, const OrientationOptions& options = {});
 
 // The gradient of ln h per node, in the node's TangentFrame, by least squares over its edges.

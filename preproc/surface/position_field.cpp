@@ -41,12 +41,31 @@ LatticeCoordinates wrapped(const LatticeCoordinates& p) {
   return {p[0] - q[0], p[1] - q[1]};
 }
 
+bool is_anchored(const GraphLevel& level, std::size_t node) {
+  return !level.anchor.empty() && level.anchor[node] != no_sample;
+}
+
+// Coordinates from the anchor: the lattice point there is not to be moved.
+void set_anchored(const FieldGraph& graph, const GraphLevel& level, const std::vector<Complex>& directions,
+                  std::vector<LatticeCoordinates>& offsets) {
+  if (level.anchor.empty()) return;
+  for (std::size_t i = 0; i < level.size(); ++i) {
+    if (!is_anchored(level, i)) continue;
+    const Vec3 from_anchor = level.positions[i] - graph.anchors[level.anchor[i]];
+    const Complex d = TangentFrame(level.normals[i]).coordinates(from_anchor) * std::exp(-level.log_length[i]) *
+                      std::conj(directions[i]);
+    const double v = d.imag() * two_over_sqrt3;
+    offsets[i] = {static_cast<float>(d.real() - 0.5 * v), static_cast<float>(v)};
+  }
+}
+
 // See sweep() of the orientation field for the blocks.
 void sweep(const GraphLevel& level, const std::vector<LatticeStep>& steps, std::vector<LatticeCoordinates>& before,
            std::vector<LatticeCoordinates>& offsets) {
   before = offsets;
   for_each_block(level.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
+      if (is_anchored(level, i)) continue;
       LatticeCoordinates mean = offsets[i];
       float weight = 0;
       for (std::uint32_t e = level.first[i]; e < level.first[i + 1]; ++e) {
@@ -127,6 +146,7 @@ PositionField compute_position_field(const FieldGraph& graph, const OrientationF
       });
       offsets = std::move(finer);
     }
+    set_anchored(graph, level, directions[l], offsets);
     steps = edge_steps(level, directions[l]);
     const int sweeps = coarsest ? 5 * options.sweeps : options.sweeps;
     for (int s = 0; s < sweeps; ++s) sweep(level, steps, before, offsets);

@@ -99,7 +99,8 @@ struct PositionField {
 };
 
 // Sets each node to the running mean of what its neighbours' coordinates predict, each prediction taken at its nearest
-// lattice image; coarse to fine. Deterministic for any number of threads. Linear.
+// lattice image; coarse to fine. Nodes on features lie where their anchors say, on all levels. Deterministic for any
+// number of threads. Linear.
 PositionField compute_position_field(const FieldGraph& graph, const OrientationField& orientation,
                                      const PositionOptions& options = {});
 

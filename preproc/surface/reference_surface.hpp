@@ -3,23 +3,32 @@
 
 #include "preproc/mesh/surface_mesh.hpp"
 #include "preproc/surface/adjacency.hpp"
+#include "preproc/surface/feature_scan.hpp"
 
 #include <vector>
 
 namespace scan2fea {
 
-// Keeps a reference to the mesh, which must outlive it and stay as it is. Linear in the mesh; about 100 bytes a
+// Keeps references to the mesh, which must outlive it and stay as it is. Linear in the mesh; about 100 bytes a
 // triangle.
 struct ReferenceSurface {
   explicit ReferenceSurface(const SurfaceMesh& scan);
+  explicit ReferenceSurface(const FeatureScan& scan);
 
-  const SurfaceMesh& mesh;
-  VertexStars stars;
+  const SurfaceMesh& mesh;           // cut open along its features, if it has some
+  const SurfaceMesh& whole;          // not cut
+  VertexStars stars;                 // of `mesh`, as all below
   std::vector<Triangle> neighbours;  // see face_neighbours
   std::vector<Vec3> face_normals;    // unit
   std::vector<Vec3> vertex_normals;  // unit
-  double diagonal = 0;               // of the bounding box
+  // Which points of the scan and of a result may stand for one another, see FeatureNet::patch_of_face; empty without
+  // features.
+  std::vector<std::uint32_t> patch_of_vertex;
+  double diagonal = 0;  // of the bounding box
   double area = 0;
+
+ private:
+  ReferenceSurface(const SurfaceMesh& cut, const SurfaceMesh& scan);
 };
 
 }  // namespace scan2fea

@@ -11,6 +11,8 @@ namespace {
 
 // More vertices than this times the old ones: the new ones, at the end, are then ordered anew.
 constexpr double most_growth = 1.3;
+// Each halves all long edges; a cube of 12 triangles needs about 10 for a fine lattice.
+constexpr int most_passes = 16;
 
 using EdgeKey = std::uint64_t;  // its two vertices, the smaller one in the upper half
 
@@ -19,46 +21,40 @@ EdgeKey edge_key(std::uint32_t a, std::uint32_t b) {
   return (EdgeKey{low} << 32) | high;
 }
 
-// One pass over the triangles that the last pass made. Returns those that this pass made.
-class Halving {
+// Parts triangles at new vertices on their edges.
+class EdgeSplitter {
  public:
-  Halving(SurfaceMesh& mesh, std::vector<double>& edge_length, double limit)
-      : mesh_(mesh), edge_length_(edge_length), limit_(limit) {}
+  EdgeSplitter(SurfaceMesh& mesh, std::vector<FeatureEdge>& features) : mesh_(mesh), features_(features) {}
 
-  std::vector<std::uint32_t> pass(const std::vector<std::uint32_t>& active) {
-    collect_long_edges(active);
-    first_middle_ = static_cast<std::uint32_t>(mesh_.vertices.size());
-    for (const EdgeKey key : long_) {
-      const auto a = static_cast<std::size_t>(key >> 32), b = static_cast<std::size_t>(key & 0xffffffffU);
-      mesh_.vertices.push_back(0.5 * (mesh_.vertices[a] + mesh_.vertices[b]));
-      edge_length_.push_back(0.5 * (edge_length_[a] + edge_length_[b]));
-    }
+  // `keys`: sorted; the vertex on each is in `vertices`. Returns the triangles that were made of `active`.
+  std::vector<std::uint32_t> split(const std::vector<EdgeKey>& keys, std::vector<std::uint32_t> vertices,
+                                   const std::vector<std::uint32_t>& active) {
+    keys_ = &keys;
+    vertices_ = std::move(vertices);
     std::vector<std::uint32_t> made;
-    if (!long_.empty())
-      for (const std::uint32_t f : active) split(f, made);
+    if (keys.empty()) return made;
+    at_end_.assign(mesh_.vertices.size(), false);
+    for (const EdgeKey key : keys) at_end_[key >> 32] = at_end_[key & 0xffffffffU] = true;
+    for (const std::uint32_t f : active) split_triangle(f, made);
+    const std::size_t features = features_.size();
+    for (std::size_t i = 0; i < features; ++i) {
+      const auto [a, b] = features_[i];
+      const std::uint32_t m = vertex_on(a, b);
+      if (m == none) continue;
+      features_[i] = feature_edge(a, m);
+      features_.push_back(feature_edge(m, b));
+    }
     return made;
   }
 
  private:
-  bool is_long(std::uint32_t a, std::uint32_t b) const {
-    const double most = limit_ * 0.5 * (edge_length_[a] + edge_length_[b]);
-    return (mesh_.vertices[a] - mesh_.vertices[b]).squaredNorm() > most * most;
-  }
+  static constexpr std::uint32_t none = ~std::uint32_t{0};
 
-  void collect_long_edges(const std::vector<std::uint32_t>& active) {
-    long_.clear();
-    for (const std::uint32_t f : active) {
-      const Triangle& t = mesh_.triangles[f];
-      for (std::size_t k = 0; k < 3; ++k)
-        if (is_long(t[k], t[(k + 1) % 3])) long_.push_back(edge_key(t[k], t[(k + 1) % 3]));
-    }
-    std::sort(long_.begin(), long_.end());
-    long_.erase(std::unique(long_.begin(), long_.end()), long_.end());
-  }
-
-  std::uint32_t middle(std::uint32_t a, std::uint32_t b) const {
-    const auto at = std::lower_bound(long_.begin(), long_.end(), edge_key(a, b));
-    return first_middle_ + static_cast<std::uint32_t>(at - long_.begin());
+  std::uint32_t vertex_on(std::uint32_t a, std::uint32_t b) const {
+    if (!at_end_[a] || !at_end_[b]) return none;  // most edges: the search is for the others
+    const EdgeKey key = edge_key(a, b);
+    const auto at = std::lower_bound(keys_->begin(), keys_->end(), key);
+    return at == keys_->end() || *at != key ? none : vertices_[static_cast<std::size_t>(at - keys_->begin())];
   }
 
   void put(std::uint32_t f, const Triangle& t, std::vector<std::uint32_t>& made) {
@@ -70,28 +66,25 @@ class Halving {
     made.push_back(static_cast<std::uint32_t>(mesh_.triangles.size() - 1));
   }
 
-  void split(std::uint32_t f, std::vector<std::uint32_t>& made) {
+  void split_triangle(std::uint32_t f, std::vector<std::uint32_t>& made) {
     Triangle t = mesh_.triangles[f];
-    std::array<bool, 3> halved{};
-    for (std::size_t k = 0; k < 3; ++k) halved[k] = is_long(t[k], t[(k + 1) % 3]);
-    const auto count = halved[0] + halved[1] + halved[2];
+    Triangle on{vertex_on(t[0], t[1]), vertex_on(t[1], t[2]), vertex_on(t[2], t[0])};
+    const auto count = 3 - std::count(on.begin(), on.end(), none);
     if (count == 0) return;
-    // Turn the triangle until its first edge is halved and, of two, the second one too.
-    while (!halved[0] || (count == 2 && !halved[1])) {
+    // Turn the triangle until its first edge is split and, of two, the second one too.
+    while (on[0] == none || (count == 2 && on[1] == none)) {
       std::rotate(t.begin(), t.begin() + 1, t.end());
-      std::rotate(halved.begin(), halved.begin() + 1, halved.end());
+      std::rotate(on.begin(), on.begin() + 1, on.end());
     }
     const auto [a, b, c] = t;
-    const std::uint32_t ab = middle(a, b);
+    const auto [ab, bc, ca] = on;
     if (count == 1) {
       put(f, {a, ab, c}, made);
       add({ab, b, c}, made);
       return;
     }
-    const std::uint32_t bc = middle(b, c);
     put(f, {ab, b, bc}, made);
     if (count == 3) {
-      const std::uint32_t ca = middle(c, a);
       add({a, ab, ca}, made);
       add({c, ca, bc}, made);
       add({ab, bc, ca}, made);
@@ -108,30 +101,93 @@ class Halving {
   }
 
   SurfaceMesh& mesh_;
-  std::vector<double>& edge_length_;
-  double limit_;
-  std::vector<EdgeKey> long_;
-  std::uint32_t first_middle_ = 0;
+  std::vector<FeatureEdge>& features_;
+  std::vector<bool> at_end_;  // of a split edge
+  const std::vector<EdgeKey>* keys_ = nullptr;
+  std::vector<std::uint32_t> vertices_;
 };
+
+std::vector<EdgeKey> long_edges(const SurfaceMesh& mesh, const std::vector<double>& edge_length,
+                                const std::vector<FeatureEdge>& features, double limit, double feature_limit,
+                                const std::vector<std::uint32_t>& active) {
+  const auto is_long = [&](std::uint32_t a, std::uint32_t b, double part) {
+    const double most = part * 0.5 * (edge_length[a] + edge_length[b]);
+    return (mesh.vertices[a] - mesh.vertices[b]).squaredNorm() > most * most;
+  };
+  std::vector<EdgeKey> found;
+  for (const std::uint32_t f : active) {
+    const Triangle& t = mesh.triangles[f];
+    for (std::size_t k = 0; k < 3; ++k)
+      if (is_long(t[k], t[(k + 1) % 3], limit)) found.push_back(edge_key(t[k], t[(k + 1) % 3]));
+  }
+  for (const auto& [a, b] : features)
+    if (is_long(a, b, feature_limit)) found.push_back(edge_key(a, b));
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+std::vector<std::uint32_t> consecutive(std::size_t first, std::size_t count) {
+  std::vector<std::uint32_t> numbers(count);
+  std::iota(numbers.begin(), numbers.end(), static_cast<std::uint32_t>(first));
+  return numbers;
+}
 
 }  // namespace
 
-RefinedScan refine_scan(SurfaceMesh scan, const SizingField& sizing, double limit, int passes) {
+void halve_long_edges(SurfaceMesh& mesh, std::vector<double>& edge_length, std::vector<FeatureEdge>& features,
+                      double limit, double feature_limit) {
+  EdgeSplitter splitter(mesh, features);
+  std::vector<std::uint32_t> active = consecutive(0, mesh.triangles.size());
+  for (int pass = 0; pass < most_passes && !active.empty(); ++pass) {
+    const std::vector<EdgeKey> keys = long_edges(mesh, edge_length, features, limit, feature_limit, active);
+    const std::size_t first = mesh.vertices.size();
+    for (const EdgeKey key : keys) {
+      const auto a = static_cast<std::size_t>(key >> 32), b = static_cast<std::size_t>(key & 0xffffffffU);
+      mesh.vertices.push_back(0.5 * (mesh.vertices[a] + mesh.vertices[b]));
+      edge_length.push_back(0.5 * (edge_length[a] + edge_length[b]));
+    }
+    active = splitter.split(keys, consecutive(first, keys.size()), active);
+  }
+}
+
+void split_edges(SurfaceMesh& mesh, std::vector<double>& edge_length, std::vector<FeatureEdge>& features,
+                 const std::vector<EdgeSplit>& splits) {
+  std::vector<std::pair<EdgeKey, std::uint32_t>> entries;
+  for (const auto& [edge, part] : splits) {
+    const auto [a, b] = edge;
+    entries.emplace_back(edge_key(a, b), static_cast<std::uint32_t>(mesh.vertices.size()));
+    mesh.vertices.push_back((1 - part) * mesh.vertices[a] + part * mesh.vertices[b]);
+    edge_length.push_back((1 - part) * edge_length[a] + part * edge_length[b]);
+  }
+  std::sort(entries.begin(), entries.end());
+  std::vector<EdgeKey> keys;
+  std::vector<std::uint32_t> vertices;
+  for (const auto& [key, vertex] : entries) {
+    keys.push_back(key);
+    vertices.push_back(vertex);
+  }
+  EdgeSplitter(mesh, features).split(keys, std::move(vertices), consecutive(0, mesh.triangles.size()));
+}
+
+std::vector<std::uint32_t> order_along_curve(SurfaceMesh& mesh, std::vector<double>& edge_length) {
+  std::vector<std::uint32_t> place = order_along_curve(mesh);
+  std::vector<double> ordered(place.size());
+  for (std::size_t v = 0; v < place.size(); ++v) ordered[place[v]] = edge_length[v];
+  edge_length = std::move(ordered);
+  return place;
+}
+
+RefinedScan refine_scan(SurfaceMesh scan, const SizingField& sizing, double limit) {
   const std::size_t scan_vertices = scan.vertices.size();
   RefinedScan result{.mesh = std::move(scan), .edge_length = sizing.edge_length, .scan_vertex_at = {}};
-  Halving halving(result.mesh, result.edge_length, limit);
-  std::vector<std::uint32_t> active(result.mesh.triangles.size());
-  for (std::uint32_t f = 0; f < active.size(); ++f) active[f] = f;
-  for (int i = 0; i < passes && !active.empty(); ++i) active = halving.pass(active);
-
-  result.scan_vertex_at.resize(scan_vertices);
-  std::iota(result.scan_vertex_at.begin(), result.scan_vertex_at.end(), 0U);
+  std::vector<FeatureEdge> no_features;
+  halve_long_edges(result.mesh, result.edge_length, no_features, limit, limit);
+  result.scan_vertex_at = consecutive(0, scan_vertices);
   if (static_cast<double>(result.mesh.vertices.size()) > most_growth * static_cast<double>(scan_vertices)) {
-    const std::vector<std::uint32_t> place = order_along_curve(result.mesh);
-    std::vector<double> edge_length(place.size());
-    for (std::size_t v = 0; v < place.size(); ++v) edge_length[place[v]] = result.edge_length[v];
-    result.edge_length = std::move(edge_length);
-    result.scan_vertex_at.assign(place.begin(), place.begin() + static_cast<std::ptrdiff_t>(scan_vertices));
+    std::vector<std::uint32_t> place = order_along_curve(result.mesh, result.edge_length);
+    place.resize(scan_vertices);
+    result.scan_vertex_at = std::move(place);
   }
   return result;
 }

@@ -215,7 +215,7 @@ RelaxResult relax(SurfaceMesh& mesh, const ReferenceSurface& scan, std::vector<d
       mesh = relaxer.surface();
       result.edge_length = relaxer.edge_length();
       const bool last = pass + 1 == options.passes && done + options.sweeps_per_improvement >= options.sweeps;
-      if (!last) improve_connectivity(mesh, result.edge_length, {.rounds = 1, .triangles = triangles});
+      if (!last) improve_connectivity(mesh, result.edge_length, {.rounds = 1, .triangles = triangles, .welded = {}});
     }
   }
   return result;

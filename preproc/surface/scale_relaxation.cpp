@@ -11,6 +11,8 @@ namespace {
 // Piecewise constant prolongation underestimates smooth corrections; this makes up for most of it.
 constexpr double coarse_correction = 1.4;
 constexpr int smoothing_sweeps = 2;
+// Of nodes on features, against edge weights of about 0.6: the distances between samples are what they are.
+constexpr double held_mass = 100;
 
 // Per node, the gradient of theta in the node's frame: its differences along the edges, matched modulo 60°.
 std::vector<Complex> turning(const GraphLevel& level, const std::vector<Complex>& directions) {
@@ -105,7 +107,8 @@ void relax_scale(FieldGraph& graph, const OrientationField& orientation, const S
   const std::vector<Complex> turn = turning(finest, orientation.directions);
   for_each_block(finest.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
-      systems[0].mass[i] = options.screening * finest.areas[i] * std::exp(-2 * finest.log_length[i]);
+      const bool held = !finest.anchor.empty() && finest.anchor[i] != no_sample;
+      systems[0].mass[i] = held ? held_mass : options.screening * finest.areas[i] * std::exp(-2 * finest.log_length[i]);
       const TangentFrame here(finest.normals[i]);
       for (std::uint32_t e = finest.first[i]; e < finest.first[i + 1]; ++e) {
         const std::uint32_t j = finest.neighbours[e];

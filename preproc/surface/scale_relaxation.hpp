@@ -14,9 +14,9 @@ struct ScaleRelaxationOptions {
 // The orientation field has turned where singularities and bends ask for it; on a lattice that is conformal its turning
 // theta and the edge length h go together, grad ln h = (d theta/dy, -d theta/dx). Solves for the ln h that comes
 // nearest to that in the least-squares sense while staying near the given one, and sets graph.levels[*].log_length to
-// it. The lattice then has fewer irregular vertices, at lengths that differ from the given ones by up to e^most_change.
-// Multigrid on the graph's hierarchy, all levels of a cycle corrected in turn (solved level by level from the coarsest,
-// the way the fields are, it diverges). Deterministic; linear.
+// it; on features the given one stays. The lattice then has fewer irregular vertices, at lengths that differ from the
+// given ones by up to e^most_change. Multigrid on the graph's hierarchy, all levels of a cycle corrected in turn
+// (solved level by level from the coarsest, the way the fields are, it diverges). Deterministic; linear.
 void relax_scale(FieldGraph& graph, const OrientationField& orientation, const ScaleRelaxationOptions& options = {});
 
 }  // namespace scan2fea

@@ -1,5 +1,6 @@
 #include "preproc/surface/shape_fit.hpp"
 
+#include "preproc/surface/cut_surface.hpp"
 #include "preproc/surface/fit_moments.hpp"
 #include "preproc/surface/locate.hpp"
 #include "preproc/surface/nearest_vertices.hpp"
@@ -13,6 +14,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <span>
 #include <string>
 
 namespace scan2fea {
@@ -29,6 +31,9 @@ constexpr std::size_t most_samples_per_face = 12;
 constexpr double longest_scan_edge = 0.7;
 // Residuals beyond this part of the mean edge are suspected of a wrong location.
 constexpr double suspicious_part_of_edge = 0.2;
+
+// Until the surface has come to lie about where it will be, vertices on features stay where the curves were sampled.
+constexpr int rounds_before_sliding = 2;
 
 constexpr double third = 1. / 3;
 constexpr std::array<std::array<double, 3>, 4> face_samples{
@@ -78,12 +83,37 @@ void reorder(std::vector<Item>& items, const std::vector<std::uint32_t>& order) 
   items = std::move(sorted);
 }
 
+Vec3 direction_at(const FeatureLine& line, double place) {
+  const auto i = std::min(static_cast<std::size_t>(place), line.points.size() - 2);
+  return (line.points[i + 1] - line.points[i]).normalized();
+}
+
+// The place that is `step` (a length, either way) along the line from another. Ends at the ends of an open line.
+double advanced(const FeatureLine& line, double place, double step) {
+  const double last = static_cast<double>(line.points.size() - 1);
+  while (true) {
+    if (line.closed && step < 0 && place <= 0) place = last;
+    if (line.closed && step > 0 && place >= last) place = 0;
+    if ((step < 0 && place <= 0) || (step > 0 && place >= last) || step == 0) return place;
+    const double whole = step > 0 ? std::floor(place) : std::ceil(place) - 1;
+    const auto i = static_cast<std::size_t>(whole);
+    const double segment = (line.points[i + 1] - line.points[i]).norm();
+    const double to_end = (step > 0 ? whole + 1 - place : place - whole) * segment;
+    if (std::abs(step) < to_end) return place + step / segment;
+    place = step > 0 ? whole + 1 : whole;
+    step += step > 0 ? -to_end : to_end;
+  }
+}
+
 class Fitter {
  public:
-  Fitter(SurfaceMesh& mesh, const ReferenceSurface& scan, const ShapeFitOptions& options)
+  // `patch_of_vertex`: of the mesh, empty where the scan has none.
+  Fitter(SurfaceMesh& mesh, const ReferenceSurface& scan, const ShapeFitOptions& options,
+         std::vector<std::uint32_t> patch_of_vertex)
       : mesh_(mesh),
         scan_(scan),
         options_(options),
+        patch_of_vertex_(std::move(patch_of_vertex)),
         stars_(mesh),
         neighbours_(face_neighbours(mesh, stars_)),
         colours_(colour_vertices(mesh, stars_)),
@@ -123,7 +153,59 @@ class Fitter {
     return *std::max_element(steps.begin(), steps.end());
   }
 
+  // One Newton step, along its line, of a vertex that is there in several copies; not beyond `backward` and `forward`
+  // (distances), and only to where the energy is lower.
+  void slide(const FeatureLine& line, double& place, std::span<const std::uint32_t> copies, double backward,
+             double forward) {
+    Vec3 gradient = Vec3::Zero();
+    Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
+    double least_squared_length = std::numeric_limits<double>::infinity();
+    for (const std::uint32_t v : copies)
+      if (!add_star(v, gradient, hessian, least_squared_length)) return;
+    const Vec3 along = direction_at(line, place);
+    const double slope = gradient.dot(along), curvature = along.dot(hessian * along);
+    if (!(curvature > 0)) return;
+    const double limit = longest_step * std::sqrt(least_squared_length);
+    double step = std::clamp(-slope / curvature, -std::min(limit, backward), std::min(limit, forward));
+    const double before = energy(copies);
+    const Vec3 from = mesh_.vertices[copies.front()];
+    for (int halving = 0; halving < 3; ++halving, step /= 2) {
+      const double trial = advanced(line, place, step);
+      put(copies, line.point_at(trial));
+      if (energy(copies) < before) {
+        place = trial;
+        return;
+      }
+    }
+    put(copies, from);
+  }
+
  private:
+  void put(std::span<const std::uint32_t> copies, const Vec3& point) {
+    for (const std::uint32_t v : copies) mesh_.vertices[v] = point;
+  }
+
+  // Of the faces around a vertex.
+  double energy(std::span<const std::uint32_t> copies) const {
+    double sum = 0;
+    for (const std::uint32_t v : copies) {
+      for (const std::uint32_t corner : stars_.corners(v)) {
+        const Triangle& t = mesh_.triangles[corner / 3];
+        const std::size_t i = corner % 3;
+        sum += shape_energy(options_.shape, mesh_.vertices[t[i]], mesh_.vertices[t[(i + 1) % 3]],
+                            mesh_.vertices[t[(i + 2) % 3]])
+                   .value +
+               change_of_fit(fits_[corner / 3], moved_corners(t));
+      }
+    }
+    return sum;
+  }
+
+  std::array<Vec3, 3> moved_corners(const Triangle& t) const {
+    return {mesh_.vertices[t[0]] - located_[t[0]], mesh_.vertices[t[1]] - located_[t[1]],
+            mesh_.vertices[t[2]] - located_[t[2]]};
+  }
+
   bool is_free(std::uint32_t v) const {
     return options_.constraints.empty() || options_.constraints[v] == VertexConstraint::free;
   }
@@ -150,9 +232,11 @@ class Fitter {
 
   void start_locations() {
     const std::vector<std::uint32_t> nearest =
-        options_.nearest_vertex_of_scan_vertex
-            ? *options_.nearest_vertex_of_scan_vertex
-            : nearest_vertices(scan_.mesh.vertices, scan_.vertex_normals, mesh_, mean_edge_);
+        options_.nearest_vertex_of_scan_vertex ? *options_.nearest_vertex_of_scan_vertex
+        : scan_.patch_of_vertex.empty()
+            ? nearest_vertices(scan_.mesh.vertices, scan_.vertex_normals, mesh_, mean_edge_)
+            : nearest_vertices_of_patch(scan_.mesh.vertices, scan_.vertex_normals, scan_.patch_of_vertex, mesh_,
+                                        patch_of_vertex_, mean_edge_);
     const std::vector<bool> of_interest = vertices_of_interest();
     std::size_t kept = 0;
     for (std::size_t s = 0; s < forward_.samples.size(); ++s) {
@@ -247,11 +331,9 @@ class Fitter {
     result.samples = locations_.size() + on_scan_.size();
   }
 
-  double move(std::uint32_t v) {
-    Vec3 gradient = Vec3::Zero();
-    Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
+  // Adds the derivatives of the energy by the place of v. False where a face around it has no area.
+  bool add_star(std::uint32_t v, Vec3& gradient, Eigen::Matrix3d& hessian, double& least_squared_length) const {
     const Vec3 p = mesh_.vertices[v];
-    double least_squared_length = std::numeric_limits<double>::infinity();
     for (const std::uint32_t corner : stars_.corners(v)) {
       const std::uint32_t f = corner / 3;
       const std::size_t i = corner % 3;
@@ -259,15 +341,22 @@ class Fitter {
       const Vec3& a = mesh_.vertices[t[(i + 1) % 3]];
       const Vec3& b = mesh_.vertices[t[(i + 2) % 3]];
       const double height_squared = (a - p).cross(b - p).squaredNorm() / (b - a).squaredNorm();
-      if (!(height_squared > 0)) return 0;
+      if (!(height_squared > 0)) return false;
       least_squared_length = std::min({least_squared_length, height_squared, (a - p).squaredNorm()});
       const Derivatives d = shape_energy(options_.shape, p, a, b);
       gradient += d.gradient;
       hessian += d.hessian;
-      const std::array<Vec3, 3> moved{mesh_.vertices[t[0]] - located_[t[0]], mesh_.vertices[t[1]] - located_[t[1]],
-                                      mesh_.vertices[t[2]] - located_[t[2]]};
-      add_derivatives(fits_[f], i, moved, gradient, hessian);
+      add_derivatives(fits_[f], i, moved_corners(t), gradient, hessian);
     }
+    return true;
+  }
+
+  double move(std::uint32_t v) {
+    Vec3 gradient = Vec3::Zero();
+    Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
+    const Vec3 p = mesh_.vertices[v];
+    double least_squared_length = std::numeric_limits<double>::infinity();
+    if (!add_star(v, gradient, hessian, least_squared_length)) return 0;
     // The Hessian is positive semi-definite; where nothing holds a vertex along some direction it stays put there.
     hessian.diagonal().array() += 1e-9 * hessian.trace();
     Vec3 step = -(hessian.inverse() * gradient);
@@ -282,6 +371,7 @@ class Fitter {
   SurfaceMesh& mesh_;
   const ReferenceSurface& scan_;
   const ShapeFitOptions& options_;
+  std::vector<std::uint32_t> patch_of_vertex_;
   VertexStars stars_;
   std::vector<Triangle> neighbours_;
   std::vector<std::vector<std::uint32_t>> colours_;
@@ -333,18 +423,106 @@ void Fitter::locate_faces(const ByFace& by_face) {
   });
 }
 
+// The mesh cut open along the lines of its net: what the fitter works on.
+class CutMesh {
+ public:
+  CutMesh(const SurfaceMesh& mesh, const FeatureNet& net)
+      : cut_(cut_along(mesh, edges_of(net))),
+        on_line_(vertices_on_lines(net, mesh.vertices.size())),
+        copies_(mesh.vertices.size()),
+        patch_(cut_.mesh.vertices.size()) {
+    for (std::uint32_t c = 0; c < cut_.vertex_of_copy.size(); ++c) copies_[cut_.vertex_of_copy[c]].push_back(c);
+    for (std::size_t f = 0; f < cut_.mesh.triangles.size(); ++f)
+      for (const std::uint32_t c : cut_.mesh.triangles[f]) patch_[c] = net.patch_of_face[f];
+  }
+
+  SurfaceMesh& mesh() { return cut_.mesh; }
+  const std::vector<std::uint32_t>& patch_of_vertex() const { return patch_; }
+  std::span<const std::uint32_t> copies(std::uint32_t vertex) const { return copies_[vertex]; }
+
+  // What is given by vertex, by copy. Vertices on lines are not the sweeps' to move.
+  ShapeFitOptions options_for(const ShapeFitOptions& options, const ReferenceSurface& scan) const {
+    ShapeFitOptions cut = options;
+    cut.constraints.assign(cut_.mesh.vertices.size(), VertexConstraint::free);
+    for (std::size_t c = 0; c < cut.constraints.size(); ++c) {
+      const std::uint32_t v = cut_.vertex_of_copy[c];
+      if (on_line_[v] || (!options.constraints.empty() && options.constraints[v] == VertexConstraint::fixed))
+        cut.constraints[c] = VertexConstraint::fixed;
+    }
+    if (cut.nearest_vertex_of_scan_vertex) {
+      // A slit has both of its sides on one patch: there the normals tell.
+      const std::vector<Vec3> normals = vertex_normals(cut_.mesh);
+      const auto likeness = [&](std::size_t s, std::uint32_t copy) {
+        return (patch_[copy] == scan.patch_of_vertex[s] ? 2 : 0) + normals[copy].dot(scan.vertex_normals[s]);
+      };
+      std::vector<std::uint32_t>& nearest = *cut.nearest_vertex_of_scan_vertex;
+      for (std::size_t s = 0; s < nearest.size(); ++s) {
+        const std::vector<std::uint32_t>& copies = copies_[nearest[s]];
+        nearest[s] = *std::max_element(copies.begin(), copies.end(), [&](std::uint32_t a, std::uint32_t b) {
+          return likeness(s, a) < likeness(s, b);
+        });
+      }
+    }
+    return cut;
+  }
+
+ private:
+  CutSurface cut_;
+  std::vector<bool> on_line_;
+  std::vector<std::vector<std::uint32_t>> copies_;
+  std::vector<std::uint32_t> patch_;
+};
+
+// Corners stay. One after the other, so that the outcome does not depend on threads; there are few.
+void slide_all(Fitter& fitter, CutMesh& cut, FeatureNet& net, const VertexConstraints& constraints) {
+  // Of the way to a neighbour.
+  constexpr double farthest_slide = 0.25;
+  for (FeatureLine& line : net.lines) {
+    const std::size_t n = line.vertices.size();
+    for (std::size_t i = line.closed ? 0 : 1; i + (line.closed ? 0 : 1) < n; ++i) {
+      VertexOnLine& at = line.vertices[i];
+      if (!constraints.empty() && constraints[at.vertex] == VertexConstraint::fixed) continue;
+      const auto distance_to = [&](const VertexOnLine& other) {
+        return farthest_slide * (cut.mesh().vertices[other.vertex] - cut.mesh().vertices[at.vertex]).norm();
+      };
+      fitter.slide(line, at.place, cut.copies(at.vertex), distance_to(line.vertices[(i + n - 1) % n]),
+                   distance_to(line.vertices[(i + 1) % n]));
+    }
+  }
+}
+
 }  // namespace
 
 ShapeFitResult optimise_shape_and_fit(SurfaceMesh& mesh, const ReferenceSurface& scan, const ShapeFitOptions& options,
                                       const Progress& progress) {
   check(mesh, scan, options);
-  Fitter fitter(mesh, scan, options);
+  Fitter fitter(mesh, scan, options, {});
   ShapeFitResult result;
   for (int round = 0; round < options.rounds; ++round) {
     progress("shape and fit", static_cast<double>(round) / options.rounds);
     fitter.locate_samples(result);
     for (int s = 0; s < options.sweeps; ++s) result.largest_step = fitter.sweep();
   }
+  return result;
+}
+
+ShapeFitResult optimise_shape_and_fit(SurfaceMesh& mesh, FeatureNet& net, const ReferenceSurface& scan,
+                                      const ShapeFitOptions& options, const Progress& progress) {
+  if (net.empty()) return optimise_shape_and_fit(mesh, scan, options, progress);
+  check(mesh, scan, options);
+  CutMesh cut(mesh, net);
+  const ShapeFitOptions cut_options = cut.options_for(options, scan);
+  Fitter fitter(cut.mesh(), scan, cut_options, cut.patch_of_vertex());
+  ShapeFitResult result;
+  for (int round = 0; round < options.rounds; ++round) {
+    progress("shape and fit", static_cast<double>(round) / options.rounds);
+    fitter.locate_samples(result);
+    for (int s = 0; s < options.sweeps; ++s) {
+      result.largest_step = fitter.sweep();
+      if (round >= rounds_before_sliding) slide_all(fitter, cut, net, options.constraints);
+    }
+  }
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) mesh.vertices[v] = cut.mesh().vertices[v];
   return result;
 }
 

@@ -10,6 +10,7 @@
 
 #include "preproc/mesh/progress.hpp"
 #include "preproc/mesh/surface_mesh.hpp"
+#include "preproc/surface/feature_net.hpp"
 #include "preproc/surface/reference_surface.hpp"
 #include "preproc/surface/shape_energy.hpp"
 #include "preproc/surface/vertex_constraint.hpp"
@@ -59,6 +60,11 @@ struct ShapeFitResult {
 // Cost per round: O(samples) with a small constant (the samples are capped at 12 a face), a few ms per 10,000 faces
 // and sweep.
 ShapeFitResult optimise_shape_and_fit(SurfaceMesh& mesh, const ReferenceSurface& scan,
+                                      const ShapeFitOptions& options = {}, const Progress& progress = {});
+
+// The same with features: vertices on the net's lines stay on them, and samples of the scan belong to the faces of
+// their own patch alone. `scan` is made from the FeatureScan that the net comes from. Places on the lines are renewed.
+ShapeFitResult optimise_shape_and_fit(SurfaceMesh& mesh, FeatureNet& net, const ReferenceSurface& scan,
                                       const ShapeFitOptions& options = {}, const Progress& progress = {});
 
 }  // namespace scan2fea

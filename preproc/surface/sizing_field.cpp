@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <queue>
 #include <string>
@@ -165,6 +166,17 @@ void limit_gradation(const Scan& scan, double gradation, std::vector<double>& le
   }
 }
 
+// The same on a scan that is cut along its features: of the copies of a vertex the shortest length counts.
+std::vector<double> log_length_from_curvature(const CutSurface& cut, std::size_t vertices, double uniform_length,
+                                              int sweeps_factor, double strength) {
+  const std::vector<double> of_copy =
+      log_length_from_curvature(Scan(cut.mesh), uniform_length, sweeps_factor, strength);
+  std::vector<double> phi(vertices, std::numeric_limits<double>::infinity());
+  for (std::size_t c = 0; c < of_copy.size(); ++c)
+    phi[cut.vertex_of_copy[c]] = std::min(phi[cut.vertex_of_copy[c]], of_copy[c]);
+  return phi;
+}
+
 // Scales to the wanted number of triangles, after giving small components theirs.
 void scale_to_count(const Scan& scan, const SizingOptions& options, const Components& components,
                     std::vector<double>& length) {
@@ -198,7 +210,11 @@ double predicted_triangles(const SurfaceMesh& scan, const SizingField& field) {
   return count;
 }
 
-SizingField compute_sizing_field(const SurfaceMesh& mesh, const SizingOptions& options) {
+void limit_gradation(const SurfaceMesh& scan, double gradation, std::vector<double>& edge_length) {
+  limit_gradation(Scan(scan), gradation, edge_length);
+}
+
+SizingField compute_sizing_field(const SurfaceMesh& mesh, const SizingOptions& options, const CutSurface* cut) {
   check(options, mesh);
   const Scan scan(mesh);
   if (!(scan.area > 0)) {
@@ -217,7 +233,8 @@ SizingField compute_sizing_field(const SurfaceMesh& mesh, const SizingOptions& o
 
   std::vector<double> phi(mesh.vertices.size(), 0.0);
   if (options.sizing != Sizing::uniform)
-    phi = log_length_from_curvature(scan, uniform_length, sweeps_factor, options.strength);
+    phi = cut ? log_length_from_curvature(*cut, phi.size(), uniform_length, sweeps_factor, options.strength)
+              : log_length_from_curvature(scan, uniform_length, sweeps_factor, options.strength);
   for (std::size_t v = 0; v < options.factors.size(); ++v) phi[v] += std::log(options.factors[v]);
 
   const Components components = find_components(mesh);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "preproc/mesh/surface_mesh.hpp"
+#include "preproc/surface/cut_surface.hpp"
 
 #include <span>
 #include <vector>
@@ -45,9 +46,14 @@ double predicted_triangles(const SurfaceMesh& scan, const SizingField& field);
 // From curvature: normals are smoothed, a shape operator is fitted to their change along the edges of each star, its
 // squared norm k^2 smoothed, and ln h = -strength/2 ln(k^2 + median k^2), clamped, graded, smoothed. The widths of the
 // smoothing follow the wanted edge length, so that a scan twice as dense gives the same field.
+// `cut`: the scan cut along its features, across which nothing bends then; absent where it has none.
 // Precondition: manifold, vertices all used, coordinates finite. Throws WrongUsage for options out of range,
 // InvalidInput where the scan has no area. O(n log n); parallel. After smoothing the gradation holds within a few per
 // cent, not exactly.
-SizingField compute_sizing_field(const SurfaceMesh& scan, const SizingOptions& options);
+SizingField compute_sizing_field(const SurfaceMesh& scan, const SizingOptions& options,
+                                 const CutSurface* cut = nullptr);
+
+// Lowers lengths until none exceeds a neighbour's by more than `gradation` times the edge between them. O(n log n).
+void limit_gradation(const SurfaceMesh& scan, double gradation, std::vector<double>& edge_length);
 
 }  // namespace scan2fea

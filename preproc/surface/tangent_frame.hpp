@@ -15,6 +15,11 @@ inline double length(const Complex& z) {
   return std::sqrt(std::norm(z));
 }
 
+inline Complex sixth_power(const Complex& z) {
+  const Complex square = z * z;
+  return square * square * square;
+}
+
 // z / |z|; 1 where there is no direction.
 inline Complex unit(const Complex& z) {
   const double l = length(z);

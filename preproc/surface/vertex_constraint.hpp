@@ -6,7 +6,7 @@
 
 namespace scan2fea {
 
-// Vertices on feature curves, which slide along them, will be a third kind.
+// Vertices on the lines of a FeatureNet that are free slide along them.
 enum class VertexConstraint : std::uint8_t { free, fixed };
 
 // One a vertex, or empty where all are free.

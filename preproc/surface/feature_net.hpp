@@ -1,0 +1,48 @@
+// The feature curves of a scan, and the vertices of a surface that lie on them.
+#pragma once
+
+#include "preproc/mesh/surface_mesh.hpp"
+#include "preproc/surface/feature_edge.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace scan2fea {
+
+struct VertexOnLine {
+  std::uint32_t vertex;  // of the surface
+  double place;          // i + t: t of the way from the line's i-th point to the next
+};
+
+// A crease or a border between two corners, or a loop.
+struct FeatureLine {
+  std::vector<Vec3> points;            // of the scan; closed: the first is repeated at the end
+  std::vector<VertexOnLine> vertices;  // of the surface, by place; closed: the first is not repeated
+  bool closed = false;
+  bool border = false;
+
+  // Precondition: 0 <= place <= points.size() - 1.
+  Vec3 point_at(double place) const {
+    const auto i = std::min(static_cast<std::size_t>(place), points.size() - 2);
+    const double t = place - static_cast<double>(i);
+    return (1 - t) * points[i] + t * points[i + 1];
+  }
+};
+
+// Empty for a surface without creases and borders.
+struct FeatureNet {
+  std::vector<FeatureLine> lines;
+  // Per face of the surface, the patch of the scan that it stands for: the lines part patches from one another.
+  std::vector<std::uint32_t> patch_of_face;
+
+  bool empty() const { return lines.empty(); }
+};
+
+// Edges of the surface that stand for the lines, sorted.
+std::vector<FeatureEdge> edges_of(const FeatureNet& net);
+
+// Per vertex of a surface of so many, whether it lies on a line.
+std::vector<bool> vertices_on_lines(const FeatureNet& net, std::size_t vertices);
+
+}  // namespace scan2fea

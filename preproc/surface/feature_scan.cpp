@@ -1,0 +1,14 @@
+#include "preproc/surface/feature_scan.hpp"
+
+#include <algorithm>
+
+namespace scan2fea {
+
+FeatureScan::FeatureScan(const SurfaceMesh& mesh, std::vector<FeatureEdge> sharp_edges, double tolerance)
+    : scan(mesh), sharp(std::move(sharp_edges)), border(boundary_edges(mesh)), curve_tolerance(tolerance) {
+  std::sort(sharp.begin(), sharp.end());
+  cut = cut_along(mesh, sharp);
+  patches = find_components(cut.mesh);
+}
+
+}  // namespace scan2fea

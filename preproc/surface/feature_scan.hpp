@@ -1,0 +1,28 @@
+// The scan cut open along its creases and borders: what every stage sees that must not reach across them.
+#pragma once
+
+#include "preproc/mesh/surface_mesh.hpp"
+#include "preproc/surface/components.hpp"
+#include "preproc/surface/cut_surface.hpp"
+#include "preproc/surface/feature_edge.hpp"
+
+#include <vector>
+
+namespace scan2fea {
+
+struct FeatureScan {
+  // `sharp`: edges of the scan, see find_features. Keeps a reference to the scan, which must outlive it. Nearly linear.
+  FeatureScan(const SurfaceMesh& scan, std::vector<FeatureEdge> sharp, double curve_tolerance);
+
+  // Whether there is anything to keep; without, the scan itself serves as well.
+  bool empty() const { return sharp.empty() && border.empty(); }
+
+  const SurfaceMesh& scan;
+  std::vector<FeatureEdge> sharp;   // sorted
+  std::vector<FeatureEdge> border;  // sorted
+  double curve_tolerance = 0;       // how far chords of the result may be from the curves, model units
+  CutSurface cut;                   // along the sharp edges
+  Components patches;               // of cut.mesh
+};
+
+}  // namespace scan2fea
