@@ -10,16 +10,17 @@
 
 namespace scan2fea {
 
-// An interior edge and the angle between the normals of its faces, degrees.
+// An interior edge and the angle between the normals of its faces.
 struct CreaseEdge {
   FeatureEdge ends;
-  double angle_deg;
+  double angle_deg;               // by which it may be sharp itself
+  double continuation_angle_deg;  // by which it may continue a chain
 };
 
 class CreaseChains {
  public:
-  // `edges`: sorted, each once. Keeps a reference to the scan.
-  CreaseChains(const SurfaceMesh& scan, std::vector<CreaseEdge> edges);
+  // `neighbours`: see face_neighbours; `edges`: those that may be marked, sorted. Keeps a reference to the scan.
+  CreaseChains(const SurfaceMesh& scan, const std::vector<Triangle>& neighbours, std::vector<CreaseEdge> edges);
 
   void mark_above(double angle_deg);
 

@@ -13,6 +13,7 @@ namespace scan2fea {
 namespace {
 
 constexpr std::size_t sampled_vertices = 1000;  // the median of so many is within about 4 %
+constexpr double crease_cosine = 0.7;           // a normal more than 45° from the vertex's own tells of a crease
 constexpr double sigma_of_median = 1.4826;      // of a normal distribution's absolute value
 
 std::vector<std::uint32_t> two_rings(const SurfaceMesh& scan, const VertexStars& stars, std::uint32_t v) {
@@ -26,8 +27,19 @@ std::vector<std::uint32_t> two_rings(const SurfaceMesh& scan, const VertexStars&
   return rings;
 }
 
-// The vertex's height over the quadric, in standard deviations of a single vertex. Nothing where the fit is not
-// determined, or leaves the vertex no freedom.
+// Whether a crease passes through the star of the vertex or of a neighbour.
+bool near_crease(const SurfaceMesh& scan, const VertexStars& stars, std::uint32_t v, const Vec3& normal) {
+  for (const std::uint32_t c : stars.corners(v))
+    for (const std::uint32_t w : scan.triangles[c / 3])
+      for (const std::uint32_t d : stars.corners(w)) {
+        const Vec3 n = area_vector(scan, scan.triangles[d / 3]);
+        if (n.dot(normal) < crease_cosine * n.norm()) return true;
+      }
+  return false;
+}
+
+// The vertex's height over the quadric, in standard deviations of a single vertex. Nothing near creases and where the
+// fit is not determined, or leaves the vertex no freedom.
 std::optional<double> residual(const SurfaceMesh& scan, const VertexStars& stars, std::uint32_t v) {
   using Row = Eigen::Matrix<double, 6, 1>;
   const std::vector<std::uint32_t> points = two_rings(scan, stars, v);
@@ -36,6 +48,7 @@ std::optional<double> residual(const SurfaceMesh& scan, const VertexStars& stars
   for (const std::uint32_t c : stars.corners(v)) normal += area_vector(scan, scan.triangles[c / 3]);
   if (normal.norm() == 0) return {};
   normal.normalize();
+  if (near_crease(scan, stars, v, normal)) return {};
   const TangentFrame frame(normal);
   double radius = 0;
   for (const std::uint32_t p : points) radius = std::max(radius, (scan.vertices[p] - scan.vertices[v]).norm());
