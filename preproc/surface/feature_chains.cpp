@@ -124,15 +124,16 @@ void CreaseChains::drop_free_ends(double shortest) {
   }
 }
 
-void CreaseChains::drop_small_nets(double shortest) {
+void CreaseChains::drop_small_nets(double shortest, double sharp_deg) {
   std::vector<char> seen(edges_.size(), 0);
   for (std::uint32_t seed = 0; seed < edges_.size(); ++seed) {
     if (!marked_[seed] || seen[seed]) continue;
     std::vector<std::uint32_t> net{seed};
     seen[seed] = 1;
-    double length = 0;
+    double length = 0, angles = 0;
     for (std::size_t i = 0; i < net.size(); ++i) {
       length += length_[net[i]];
+      angles += edges_[net[i]].angle_deg;
       for (const std::uint32_t v : edges_[net[i]].ends)
         for (const std::uint32_t e : at(v))
           if (marked_[e] && !seen[e]) {
@@ -140,14 +141,9 @@ void CreaseChains::drop_small_nets(double shortest) {
             net.push_back(e);
           }
     }
-    if (length < shortest)
+    if (length < shortest && angles < sharp_deg * static_cast<double>(net.size()))
       for (const std::uint32_t e : net) set(e, false);
   }
-}
-
-void CreaseChains::drop_short(double shortest, bool noisy) {
-  drop_free_ends(shortest);
-  if (noisy) drop_small_nets(shortest);
 }
 
 std::vector<FeatureEdge> CreaseChains::marked() const {

@@ -12,8 +12,12 @@
 namespace scan2fea {
 namespace {
 
-// Noise above this share of the mean edge length tilts faces by about 3°, and by more than 10° one in a hundred.
-constexpr double noise_to_filter = 0.01;
+// Noise above this share of the mean edge length tilts faces by about 1.5°: more than the creases of organic scans
+// bear.
+constexpr double noise_to_filter = 0.005;
+
+// A small loop or net whose edges are sharper than this times the limit, in the mean, is a small part's: 70°.
+constexpr double sharper_than_noise = 1.75;
 
 // Of the angle of a weak crease.
 constexpr double continuation_left_by_filter = 0.75;
@@ -100,7 +104,9 @@ Features find_features(const SurfaceMesh& scan, const FeatureOptions& options) {
   CreaseChains chains(scan, neighbours, crease_edges(scan, neighbours, normals, finer_normals, continuation_deg));
   chains.mark_above(*options.angle_deg);
   chains.continue_ends(continuation_deg);
-  chains.drop_short(options.shortest_chain_of_diagonal * bounding_box(scan.vertices).diagonal(), noisy);
+  const double shortest = options.shortest_chain_of_diagonal * bounding_box(scan.vertices).diagonal();
+  chains.drop_free_ends(shortest);
+  if (noisy) chains.drop_small_nets(shortest, sharper_than_noise * *options.angle_deg);
   result.edges = chains.marked();
   return result;
 }
