@@ -78,11 +78,11 @@ SurfaceMesh slab_with_holes(int genus, double edge_length) {
 SurfaceMesh sphere(double radius, int levels) {
   const double g = std::numbers::phi;
   SurfaceMesh mesh;
-  mesh.vertices = {{-1, g, 0}, {1, g, 0},   {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g},
+  mesh.vertices = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
                    {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
-  mesh.triangles = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+  mesh.triangles = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
                     {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
-                    {3, 8, 9},  {4, 9, 5},  {2, 4, 11},  {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
+                    {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
   for (int level = 0; level < levels; ++level) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middle;
     const auto midpoint = [&](std::uint32_t a, std::uint32_t b) {
@@ -104,9 +104,7 @@ SurfaceMesh sphere(double radius, int levels) {
 
 SurfaceMesh torus(double major_radius, double minor_radius, int around, int across) {
   SurfaceMesh mesh;
-  const auto index = [&](int i, int j) {
-    return static_cast<std::uint32_t>((i % around) * across + (j % across));
-  };
+  const auto index = [&](int i, int j) { return static_cast<std::uint32_t>((i % around) * across + (j % across)); };
   for (int i = 0; i < around; ++i)
     for (int j = 0; j < across; ++j) {
       const double u = 2 * std::numbers::pi * i / around, v = 2 * std::numbers::pi * j / across;
@@ -114,6 +112,45 @@ SurfaceMesh torus(double major_radius, double minor_radius, int around, int acro
       mesh.vertices.emplace_back(r * std::cos(u), r * std::sin(u), minor_radius * std::sin(v));
       mesh.triangles.push_back({index(i, j), index(i + 1, j), index(i + 1, j + 1)});
       mesh.triangles.push_back({index(i, j), index(i + 1, j + 1), index(i, j + 1)});
+    }
+  return mesh;
+}
+
+SurfaceMesh cylinder(double radius, double height, int around, int along) {
+  SurfaceMesh mesh;
+  const auto n = static_cast<std::uint32_t>(around);
+  for (int k = 0; k <= along; ++k)
+    for (int i = 0; i < around; ++i) {
+      const double angle = 2 * std::numbers::pi * i / around;
+      mesh.vertices.emplace_back(radius * std::cos(angle), radius * std::sin(angle), height * k / along);
+    }
+  const auto bottom = static_cast<std::uint32_t>(mesh.vertices.size()), top = bottom + 1;
+  mesh.vertices.emplace_back(0, 0, 0);
+  mesh.vertices.emplace_back(0, 0, height);
+  const std::uint32_t last = n * static_cast<std::uint32_t>(along);
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const std::uint32_t j = (i + 1) % n;
+    mesh.triangles.push_back({bottom, j, i});
+    mesh.triangles.push_back({top, last + i, last + j});
+    for (std::uint32_t k = 0; k < last; k += n) {
+      mesh.triangles.push_back({k + i, k + j, k + n + j});
+      mesh.triangles.push_back({k + i, k + n + j, k + n + i});
+    }
+  }
+  return mesh;
+}
+
+SurfaceMesh sheet(double width, double depth, double edge_length) {
+  const auto n = static_cast<std::uint32_t>(std::max(1L, std::lround(width / edge_length)));
+  const auto m = static_cast<std::uint32_t>(std::max(1L, std::lround(depth / edge_length)));
+  SurfaceMesh mesh;
+  for (std::uint32_t j = 0; j <= m; ++j)
+    for (std::uint32_t i = 0; i <= n; ++i) mesh.vertices.emplace_back(width * i / n, depth * j / m, 0);
+  for (std::uint32_t j = 0; j < m; ++j)
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const std::uint32_t a = j * (n + 1) + i, b = a + 1, d = a + n + 1, c = d + 1;
+      mesh.triangles.push_back({a, b, c});
+      mesh.triangles.push_back({a, c, d});
     }
   return mesh;
 }

@@ -1,4 +1,4 @@
-// Closed surfaces whose volume, area and topology are known, for tests.
+// Surfaces whose volume, area and topology are known, for tests.
 #pragma once
 
 #include "preproc/mesh/surface_mesh.hpp"
@@ -14,6 +14,13 @@ SurfaceMesh sphere(double radius, int levels);
 
 // A torus about z with `around` x `across` quads, split into triangles.
 SurfaceMesh torus(double major_radius, double minor_radius, int around, int across);
+
+// A prism over a regular polygon of `around` corners about z, closed by fans: a cylinder where `around` is large. Its
+// height is split into `along` rings.
+SurfaceMesh cylinder(double radius, double height, int around, int along);
+
+// An open rectangle in the plane z = 0, from the origin, split like a side of the box.
+SurfaceMesh sheet(double width, double depth, double edge_length);
 
 // A slab of `genus` square holes in a row, 1 thick, each square of side 1 and split into (1/edge_length)^2.
 SurfaceMesh slab_with_holes(int genus, double edge_length);

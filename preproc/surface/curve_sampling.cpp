@@ -24,8 +24,15 @@ struct Polyline {
   std::vector<Vec3> points;
   std::vector<double> arc;     // at each point
   std::vector<double> length;  // wanted, at each point
+  std::vector<double> steps;   // of the wanted length up to each point; see count_steps
   double tolerance = 0;
   double longest_share = 1;  // of its length that a step may have
+
+  void count_steps() {
+    steps.assign(1, 0);
+    for (std::size_t i = 1; i < points.size(); ++i)
+      steps.push_back(steps.back() + 2 * (arc[i] - arc[i - 1]) / (length[i] + length[i - 1]));
+  }
   double total() const { return arc.back(); }
 
   std::size_t segment_at(double s) const {
@@ -41,6 +48,16 @@ struct Polyline {
     const std::size_t i = segment_at(s);
     const double t = fraction(s, i);
     return (1 - t) * points[i] + t * points[i + 1];
+  }
+  double steps_at(double s) const {
+    const std::size_t i = segment_at(s);
+    return steps[i] + fraction(s, i) * (steps[i + 1] - steps[i]);
+  }
+  double arc_after(double count) const {
+    const auto after = std::upper_bound(steps.begin(), steps.end(), count) - steps.begin();
+    const std::size_t i = std::min(static_cast<std::size_t>(std::max<std::ptrdiff_t>(1, after)) - 1, steps.size() - 2);
+    const double l = steps[i + 1] - steps[i];
+    return arc[i] + (l > 0 ? (count - steps[i]) / l : 0) * (arc[i + 1] - arc[i]);
   }
   double wanted(double s) const {
     const std::size_t i = segment_at(s);
@@ -94,7 +111,7 @@ std::vector<Place> candidates(const Polyline& line) {
 }
 
 // The cheapest way from the first to the last candidate.
-std::vector<double> cheapest_path(const Polyline& line) {
+std::vector<Place> cheapest_path(const Polyline& line) {
   const std::vector<Place> places = candidates(line);
   std::vector<double> cost(places.size(), std::numeric_limits<double>::infinity());
   std::vector<std::size_t> before(places.size(), 0);
@@ -112,45 +129,68 @@ std::vector<double> cheapest_path(const Polyline& line) {
       }
     }
   }
-  std::vector<double> path;
-  for (std::size_t j = places.size() - 1; j > 0; j = before[j]) path.push_back(places[j].arc);
-  path.push_back(0);
+  std::vector<Place> path;
+  for (std::size_t j = places.size() - 1; j > 0; j = before[j]) path.push_back(places[j]);
+  path.push_back(places.front());
   std::reverse(path.begin(), path.end());
   return path;
 }
 
-// Candidates are a sixth of h apart: even out what that leaves uneven.
-void relax(const Polyline& line, std::vector<double>& path) {
-  if (path.size() < 3) return;
-  std::vector<Place> places;
-  for (const double s : path) places.push_back(place_at(line, s));
+double cost_of(const Polyline& line, const std::vector<Place>& places, std::size_t from, std::size_t to) {
   const double longest = line.longest_share * line.total();
-  double step = piece_of_length / 2;
-  for (int sweep = 0; sweep < relaxation_sweeps; ++sweep, step *= 0.6) {
+  double cost = 0;
+  for (std::size_t i = from; i < to; ++i) {
+    if (places[i + 1].arc - places[i].arc > longest) return std::numeric_limits<double>::infinity();
+    cost += step_cost(line, places[i], places[i + 1]);
+  }
+  return cost;
+}
+
+// Candidates are a sixth of h apart, which leaves steps uneven. Between two samples all others are put where their
+// steps are the same share of the wanted length, if that costs less; and if not, for half of them at a time: bends hold
+// the samples that lie on them.
+void even_out(const Polyline& line, std::vector<Place>& places, std::size_t from, std::size_t to) {
+  if (to - from < 2) return;
+  std::vector<Place> evened = places;
+  const double first = line.steps_at(places[from].arc), last = line.steps_at(places[to].arc);
+  for (std::size_t i = from + 1; i < to; ++i) {
+    const double share = static_cast<double>(i - from) / static_cast<double>(to - from);
+    evened[i] = place_at(line, line.arc_after(first + share * (last - first)));
+  }
+  if (cost_of(line, evened, from, to) <= cost_of(line, places, from, to)) {
+    places = std::move(evened);
+    return;
+  }
+  const std::size_t middle = (from + to) / 2;
+  even_out(line, places, from, middle);
+  even_out(line, places, middle, to);
+}
+
+// What is left between bends that the halves did not part.
+void relax(const Polyline& line, std::vector<Place>& places) {
+  double shift = piece_of_length / 2;
+  for (int sweep = 0; sweep < relaxation_sweeps; ++sweep, shift *= 0.6) {
     for (std::size_t i = 1; i + 1 < places.size(); ++i) {
-      const Place &a = places[i - 1], &b = places[i + 1];
-      double best = step_cost(line, a, places[i]) + step_cost(line, places[i], b);
       for (const double side : {-1.0, 1.0}) {
-        const double s = places[i].arc + side * step * places[i].wanted;
-        if (s - a.arc <= 0.1 * (b.arc - a.arc) || b.arc - s <= 0.1 * (b.arc - a.arc)) continue;
-        if (s - a.arc > longest || b.arc - s > longest) continue;
-        const Place moved = place_at(line, s);
-        const double c = step_cost(line, a, moved) + step_cost(line, moved, b);
-        if (c < best) {
-          best = c;
-          places[i] = moved;
-          break;
-        }
+        const double s = places[i].arc + side * shift * places[i].wanted;
+        if (s <= places[i - 1].arc || s >= places[i + 1].arc) continue;
+        const double before = cost_of(line, places, i - 1, i + 1);
+        const Place old = std::exchange(places[i], place_at(line, s));
+        if (cost_of(line, places, i - 1, i + 1) < before) break;
+        places[i] = old;
       }
     }
   }
-  for (std::size_t i = 0; i < path.size(); ++i) path[i] = places[i].arc;
 }
 
-std::vector<double> sample(const Polyline& line) {
-  std::vector<double> path = cheapest_path(line);
-  relax(line, path);
-  return path;
+std::vector<double> sample(Polyline line) {
+  line.count_steps();
+  std::vector<Place> places = cheapest_path(line);
+  even_out(line, places, 0, places.size() - 1);
+  relax(line, places);
+  std::vector<double> arcs;
+  for (const Place& place : places) arcs.push_back(place.arc);
+  return arcs;
 }
 
 Polyline polyline(const SurfaceMesh& scan, const FeatureCurve& curve, const std::vector<double>& edge_length,

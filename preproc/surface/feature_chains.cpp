@@ -14,20 +14,20 @@ constexpr double straight_cosine = 0.70710678118654752;  // a continuation turns
 
 }  // namespace
 
-CreaseChains::CreaseChains(const SurfaceMesh& scan, std::vector<CreaseEdge> edges)
+CreaseChains::CreaseChains(const SurfaceMesh& scan, const std::vector<Triangle>& neighbours,
+                           std::vector<CreaseEdge> edges)
     : scan_(scan),
       edges_(std::move(edges)),
       first_(scan.vertices.size() + 1, 0),
       marked_(edges_.size(), 0),
       degree_(scan.vertices.size(), 0),
       on_border_(scan.vertices.size(), 0) {
-  std::vector<std::uint32_t> corners(scan.vertices.size(), 0);
-  for (const Triangle& t : scan.triangles)
-    for (const std::uint32_t v : t) ++corners[v];
+  for (std::size_t f = 0; f < neighbours.size(); ++f)
+    for (std::size_t k = 0; k < 3; ++k)
+      if (neighbours[f][k] == no_face)
+        on_border_[scan.triangles[f][(k + 1) % 3]] = on_border_[scan.triangles[f][(k + 2) % 3]] = 1;
   for (const CreaseEdge& e : edges_)
     for (const std::uint32_t v : e.ends) ++first_[v + 1];
-  // Around a vertex inside there are as many edges as triangles; at a border its two edges are missing here.
-  for (std::size_t v = 0; v < on_border_.size(); ++v) on_border_[v] = first_[v + 1] < corners[v];
   std::partial_sum(first_.begin(), first_.end(), first_.begin());
   star_.resize(2 * edges_.size());
   std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
@@ -61,11 +61,11 @@ void CreaseChains::extend_from(std::uint32_t v, double angle_deg) {
     std::uint32_t best = no_edge;
     double best_score = 0;
     for (const std::uint32_t e : at(v)) {
-      if (marked_[e] || edges_[e].angle_deg <= angle_deg) continue;
+      if (marked_[e] || edges_[e].continuation_angle_deg <= angle_deg) continue;
       const Vec3 onwards = (scan_.vertices[other_end(e, v)] - scan_.vertices[v]).normalized();
       const double cosine = direction.dot(onwards);
       if (cosine < straight_cosine) continue;
-      const double score = cosine * edges_[e].angle_deg;
+      const double score = cosine * edges_[e].continuation_angle_deg;
       if (score > best_score) {
         best_score = score;
         best = e;
@@ -124,15 +124,16 @@ void CreaseChains::drop_free_ends(double shortest) {
   }
 }
 
-void CreaseChains::drop_small_nets(double shortest) {
+void CreaseChains::drop_small_nets(double shortest, double sharp_deg) {
   std::vector<char> seen(edges_.size(), 0);
   for (std::uint32_t seed = 0; seed < edges_.size(); ++seed) {
     if (!marked_[seed] || seen[seed]) continue;
     std::vector<std::uint32_t> net{seed};
     seen[seed] = 1;
-    double length = 0;
+    double length = 0, angles = 0;
     for (std::size_t i = 0; i < net.size(); ++i) {
       length += length_[net[i]];
+      angles += edges_[net[i]].angle_deg;
       for (const std::uint32_t v : edges_[net[i]].ends)
         for (const std::uint32_t e : at(v))
           if (marked_[e] && !seen[e]) {
@@ -140,14 +141,9 @@ void CreaseChains::drop_small_nets(double shortest) {
             net.push_back(e);
           }
     }
-    if (length < shortest)
+    if (length < shortest && angles < sharp_deg * static_cast<double>(net.size()))
       for (const std::uint32_t e : net) set(e, false);
   }
-}
-
-void CreaseChains::drop_short(double shortest, bool noisy) {
-  drop_free_ends(shortest);
-  if (noisy) drop_small_nets(shortest);
 }
 
 std::vector<FeatureEdge> CreaseChains::marked() const {

@@ -10,16 +10,17 @@
 
 namespace scan2fea {
 
-// An interior edge and the angle between the normals of its faces, degrees.
+// An interior edge and the angle between the normals of its faces.
 struct CreaseEdge {
   FeatureEdge ends;
-  double angle_deg;
+  double angle_deg;               // by which it may be sharp itself
+  double continuation_angle_deg;  // by which it may continue a chain
 };
 
 class CreaseChains {
  public:
-  // `edges`: sorted, each once. Keeps a reference to the scan.
-  CreaseChains(const SurfaceMesh& scan, std::vector<CreaseEdge> edges);
+  // `neighbours`: see face_neighbours; `edges`: those that may be marked, sorted. Keeps a reference to the scan.
+  CreaseChains(const SurfaceMesh& scan, const std::vector<Triangle>& neighbours, std::vector<CreaseEdge> edges);
 
   void mark_above(double angle_deg);
 
@@ -28,9 +29,11 @@ class CreaseChains {
   // merely touch a chain are not in its direction, nor at its end.
   void continue_ends(double angle_deg);
 
-  // Unmarks chains with a free end (not on the scan's border) that are shorter; where `noisy`, also loops and nets of
-  // chains whose total length is.
-  void drop_short(double shortest, bool noisy);
+  // Unmarks chains with a free end (not on the scan's border) that are shorter.
+  void drop_free_ends(double shortest);
+
+  // Unmarks loops and nets of chains whose total length is below, unless they are sharper than the angle in the mean.
+  void drop_small_nets(double shortest, double sharp_deg);
 
   std::vector<FeatureEdge> marked() const;
 
@@ -46,8 +49,6 @@ class CreaseChains {
   // The one marked edge at v where its degree is 1.
   std::uint32_t marked_edge_at(std::uint32_t v, std::uint32_t except) const;
   void extend_from(std::uint32_t v, double angle_deg);
-  void drop_free_ends(double shortest);
-  void drop_small_nets(double shortest);
 
   const SurfaceMesh& scan_;
   std::vector<CreaseEdge> edges_;
