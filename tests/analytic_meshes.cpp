@@ -75,6 +75,42 @@ SurfaceMesh slab_with_holes(int genus, double edge_length) {
                        [n](int x, int y, int) { return (x / n) % 2 == 0 || (y / n) != 1; });
 }
 
+SurfaceMesh plate(const Vec3& size, double edge_length) {
+  const auto columns = static_cast<std::uint32_t>(std::round(size.x() / edge_length));
+  const auto rows = static_cast<std::uint32_t>(std::round(size.y() / (edge_length * std::numbers::sqrt3 / 2)));
+  SurfaceMesh mesh;
+  const auto at = [&](std::uint32_t i, std::uint32_t row, std::uint32_t level) {
+    return (level * (rows + 1) + row) * (columns + 1) + i;
+  };
+  const auto leans_right = [](std::uint32_t row, std::uint32_t level) { return (row + level) % 2 == 0; };
+  for (std::uint32_t level = 0; level < 2; ++level)
+    for (std::uint32_t row = 0; row <= rows; ++row)
+      for (std::uint32_t i = 0; i <= columns; ++i) {
+        const double shift = i == 0 || i == columns ? 0 : leans_right(row, level) ? 0.25 : -0.25;
+        mesh.vertices.emplace_back(size.x() * (i + shift) / columns, size.y() * row / rows, size.z() * level);
+      }
+  // Between two rows, the first below the second as seen from outside with its indices from left to right.
+  const auto cell = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d, bool from_a) {
+    if (from_a)
+      mesh.triangles.insert(mesh.triangles.end(), {{a, b, d}, {a, d, c}});
+    else
+      mesh.triangles.insert(mesh.triangles.end(), {{a, b, c}, {b, d, c}});
+  };
+  for (std::uint32_t i = 0; i < columns; ++i) {
+    for (std::uint32_t row = 0; row < rows; ++row) {
+      cell(at(i, row, 1), at(i + 1, row, 1), at(i, row + 1, 1), at(i + 1, row + 1, 1), leans_right(row, 1));
+      cell(at(i, row + 1, 0), at(i + 1, row + 1, 0), at(i, row, 0), at(i + 1, row, 0), leans_right(row + 1, 0));
+    }
+    cell(at(i, 0, 0), at(i + 1, 0, 0), at(i, 0, 1), at(i + 1, 0, 1), leans_right(0, 0));
+    cell(at(i, rows, 1), at(i + 1, rows, 1), at(i, rows, 0), at(i + 1, rows, 0), leans_right(rows, 1));
+  }
+  for (std::uint32_t row = 0; row < rows; ++row) {
+    cell(at(columns, row, 0), at(columns, row + 1, 0), at(columns, row, 1), at(columns, row + 1, 1), row % 2 == 0);
+    cell(at(0, row, 1), at(0, row + 1, 1), at(0, row, 0), at(0, row + 1, 0), row % 2 == 0);
+  }
+  return mesh;
+}
+
 SurfaceMesh sphere(double radius, int levels) {
   const double g = std::numbers::phi;
   SurfaceMesh mesh;

@@ -9,6 +9,11 @@ namespace scan2fea::analytic {
 // triangles.
 SurfaceMesh box(const Vec3& size, double edge_length);
 
+// A plate of near-equilateral triangles, thinner than its edges are long: rows of triangles over the faces, shifted by
+// half a triangle from row to row and from one face to the other, one row along the sides. Vertices exactly on the
+// edges; about 40 degrees at the least.
+SurfaceMesh plate(const Vec3& size, double edge_length);
+
 // Icosahedron subdivided `levels` times, vertices on the sphere: 20 * 4^levels triangles.
 SurfaceMesh sphere(double radius, int levels);
 

@@ -10,6 +10,7 @@
 #include "preproc/surface/reference_surface.hpp"
 #include "preproc/surface/refined_scan.hpp"
 #include "preproc/surface/shape_fit.hpp"
+#include "preproc/surface/wedges.hpp"
 #include "quality/deviation_bound.hpp"
 #include "quality/triangle_measures.hpp"
 
@@ -73,7 +74,10 @@ void finish(Candidate& candidate, const ReferenceSurface& scan, const Progress& 
     guard.least_angle_deg = 38.5;  // most fits reach it without the guard
     const GuardResult guarded = guard_surface(candidate.mesh, scan, guard, progress);
     candidate.crossings_mended = guarded.before.crossings.size();
-    if (!guarded.clean()) candidate.failure = describe(guarded.after);
+    if (guarded.clean())
+      open_wedges(candidate.mesh, scan);
+    else
+      candidate.failure = describe(guarded.after);
   } catch (const NotMeshable& e) {
     candidate.failure = e.parts().what;
   }

@@ -1,8 +1,11 @@
 // The volume stage beside its peers, on surfaces given as files.
 //
-//   benchmark_volume table SURFACE...    one table per surface: TetGen and Gmsh alone, and ours at several settings
-//   benchmark_volume corpus FOLDER       every closed mesh in a folder, repaired and simplified to half its triangles
-//                                        (or with its own): what came out beside what the surface allows
+//   benchmark_volume standard HORSE FANDISK   the table of the README: TetGen and Gmsh alone and ours, on the Horse at
+//                                             12,604 triangles, even and adaptive, fandisk, and a thin plate
+//   benchmark_volume table SURFACE...         the same rows for surfaces as they are
+//   benchmark_volume large SURFACE...         ours alone, with the memory
+//   benchmark_volume corpus FOLDER            every closed mesh in a folder, repaired and simplified to half its
+//                                             triangles (or with its own): what came out beside what the surface allows
 //
 // Seconds are processor time of this process and its children, on one thread, of the whole stage: bounds, points,
 // TetGen in its child with the files between, optimisation. "x" is that over TetGen's own call in the same run.
@@ -11,6 +14,7 @@
 #include "preproc/pipeline.hpp"
 #include "preproc/volume/fill_regions.hpp"
 #include "quality/tetrahedron_measures.hpp"
+#include "tests/analytic_meshes.hpp"
 #include "tests/benchmark/gmsh_volume_peer.hpp"
 
 #include <tbb/global_control.h>
@@ -50,11 +54,15 @@ SurfaceMesh outward(const std::filesystem::path& file) {
   return surface;
 }
 
-TetrahedralizeOptions ours(double interior_size, double threshold, int rounds) {
+TetrahedralizeOptions ours(double interior_size) {
   TetrahedralizeOptions options;
   options.interior_size.value = interior_size;
-  options.optimise->threshold = threshold;
-  options.optimise->insertion_rounds = rounds;
+  return options;
+}
+
+TetrahedralizeOptions high_effort(TetrahedralizeOptions options) {
+  options.optimise->threshold = 1.5;
+  options.optimise->insertion_rounds = 3;
   return options;
 }
 
@@ -64,15 +72,20 @@ TetrahedralizeOptions tetgen_optimised() {
   return options;
 }
 
-void table(const std::filesystem::path& file) {
-  const SurfaceMesh surface = outward(file);
+struct Setting {
+  const char* name;
+  TetrahedralizeOptions options;
+};
+
+constexpr const char* table_head =
+    "| | tetrahedra | told before | dihedral angles | scaled Jacobian min / mean | seconds | x | us each |\n"
+    "|---|---|---|---|---|---|---|---|\n";
+
+// One surface's rows: TetGen and Gmsh alone, then ours.
+void rows(const char* title, const SurfaceMesh& surface, const std::vector<Setting>& settings) {
   const SurfaceBound bound = surface_bound(surface);
-  std::printf("%s: %zu triangles; the surface allows %.2f deg at (%.4g, %.4g, %.4g), scaled Jacobian %.3f\n",
-              file.filename().c_str(), surface.triangles.size(), bound.min_dihedral_deg, bound.min_dihedral_at.x(),
-              bound.min_dihedral_at.y(), bound.min_dihedral_at.z(), bound.scaled_jacobian);
-  std::printf(
-      "| | tetrahedra | estimated | dihedral angles | scaled Jacobian min / mean | seconds | x | us each |\n"
-      "|---|---|---|---|---|---|---|---|\n");
+  std::printf("| **%s**, %zu triangles | | | the surface allows %.1f° | %.3f | | | |\n", title,
+              surface.triangles.size(), bound.min_dihedral_deg, bound.scaled_jacobian);
   double tetgen_seconds = 0;
   const auto row = [&](const char* name, const TetMesh& mesh, std::size_t estimated, double seconds) {
     if (tetgen_seconds == 0) tetgen_seconds = seconds;
@@ -82,11 +95,6 @@ void table(const std::filesystem::path& file) {
                 m.scaled_jacobian.min, m.scaled_jacobian.mean, seconds, seconds / tetgen_seconds,
                 1e6 * seconds / static_cast<double>(m.tetrahedra));
     std::fflush(stdout);
-  };
-  const auto our_row = [&](const char* name, const TetrahedralizeOptions& options) {
-    const double start = processor_seconds();
-    const TetrahedralizeResult result = tetrahedralize(surface, options);
-    row(name, result.mesh, result.estimated_tetrahedra, processor_seconds() - start);
   };
   const auto gmsh_row = [&](const char* name, int rounds) {
     const double start = processor_seconds();
@@ -103,11 +111,66 @@ void table(const std::filesystem::path& file) {
   }
   gmsh_row("Gmsh HXT", 0);
   gmsh_row("Gmsh HXT, optimised 5 times", 5);
-  our_row("TetGen's points, optimised", tetgen_optimised());
-  our_row("scan2fea", TetrahedralizeOptions{});
-  our_row("scan2fea, `--interior-size 1.3x`", ours(1.3, 1.4, 2));
-  our_row("the same, threshold 1.5, three rounds", ours(1.3, 1.5, 3));
-  std::printf("peak memory: %.0f MB\n\n", std::max(peak_megabytes(RUSAGE_SELF), peak_megabytes(RUSAGE_CHILDREN)));
+  for (const Setting& setting : settings) {
+    const double start = processor_seconds();
+    const TetrahedralizeResult result = tetrahedralize(surface, setting.options);
+    row(setting.name, result.mesh, result.estimated_tetrahedra, processor_seconds() - start);
+  }
+}
+
+void table(const std::filesystem::path& file) {
+  std::fputs(table_head, stdout);
+  rows(file.filename().c_str(), outward(file),
+       {{"TetGen's points, optimised", tetgen_optimised()},
+        {"scan2fea", {}},
+        {"scan2fea, effort high", high_effort({})},
+        {"scan2fea `--interior-size 1.3x`", ours(1.3)}});
+  std::printf("\n");
+}
+
+SurfaceMesh simplified(const std::filesystem::path& file, std::size_t faces, Sizing sizing) {
+  PipelineOptions options;
+  options.simplify->size = FaceCount{faces};
+  options.simplify->sizing = sizing;
+  options.tetrahedralize.reset();
+  return run_pipeline(read_surface(file), options).surface;
+}
+
+// The surfaces that the volume stage is judged on.
+void standard(const std::filesystem::path& horse, const std::filesystem::path& fandisk) {
+  std::fputs(table_head, stdout);
+  rows("Horse, `--sizing uniform`", simplified(horse, 12604, Sizing::uniform),
+       {{"scan2fea", {}},
+        {"scan2fea, effort high", high_effort({})},
+        {"scan2fea `--interior-size 1.3x`", ours(1.3)},
+        {"scan2fea `--interior-size 1.3x`, effort high", high_effort(ours(1.3))}});
+  rows("Horse", simplified(horse, 12604, Sizing::curvature),
+       {{"scan2fea", {}}, {"scan2fea, effort high", high_effort({})}});
+  rows("fandisk", simplified(fandisk, 21000, Sizing::curvature),
+       {{"scan2fea", {}}, {"scan2fea, effort high", high_effort({})}, {"scan2fea `--interior-size 1.3x`", ours(1.3)}});
+  rows("plate 100 x 100 x 2, edges of 2.8", analytic::plate({100, 100, 2}, 2.8),
+       {{"scan2fea", {}}, {"scan2fea, effort high", high_effort({})}});
+}
+
+// A surface too large for Gmsh's rows to be worth their time.
+void large(const std::filesystem::path& file) {
+  const SurfaceMesh surface = outward(file);
+  const SurfaceBound bound = surface_bound(surface);
+  const double start = processor_seconds();
+  const TetrahedralizeResult result = tetrahedralize(surface);
+  const double seconds = processor_seconds() - start;
+  const double own = peak_megabytes(RUSAGE_SELF), child = peak_megabytes(RUSAGE_CHILDREN);
+  const TetSummary m = measure_tetrahedra(result.mesh);
+  const auto each = static_cast<double>(m.tetrahedra);
+  std::printf(
+      "| surface | triangles | tetrahedra | told before | dihedral angles | surface allows | scaled Jacobian min / "
+      "mean "
+      "| seconds | us each | peak MB here, in TetGen's process | bytes each "
+      "|\n|---|---|---|---|---|---|---|---|---|---|---|\n"
+      "| %s | %zu | %zu | %zu | %.1f–%.1f° | %.1f° | %.3f / %.3f | %.1f | %.1f | %.0f, %.0f | %.0f, %.0f |\n",
+      file.filename().c_str(), surface.triangles.size(), m.tetrahedra, result.estimated_tetrahedra, m.min_dihedral_deg,
+      m.max_dihedral_deg, bound.min_dihedral_deg, m.scaled_jacobian.min, m.scaled_jacobian.mean, seconds,
+      1e6 * seconds / each, own, child, own * 1048576 / each, child * 1048576 / each);
 }
 
 // Why the worst element is bad: whether the mesher had no choice there.
@@ -201,12 +264,19 @@ int main(int argc, char** argv) {
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   const std::string mode = argc > 2 ? argv[1] : "";
   try {
-    if (mode == "table")
+    if (mode == "standard" && argc == 4)
+      scan2fea::benchmark::standard(argv[2], argv[3]);
+    else if (mode == "table")
       for (int i = 2; i < argc; ++i) scan2fea::benchmark::table(argv[i]);
+    else if (mode == "large")
+      for (int i = 2; i < argc; ++i) scan2fea::benchmark::large(argv[i]);
     else if (mode == "corpus")
       scan2fea::benchmark::corpus(argv[2]);
     else
-      return std::fprintf(stderr, "usage: benchmark_volume table SURFACE... | corpus FOLDER\n"), 2;
+      return std::fprintf(stderr,
+                          "usage: benchmark_volume standard HORSE FANDISK | table SURFACE... | large SURFACE... | "
+                          "corpus FOLDER\n"),
+             2;
   } catch (const std::exception& error) {
     return std::fprintf(stderr, "%s\n", error.what()), 1;
   }

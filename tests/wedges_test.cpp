@@ -1,0 +1,81 @@
+#include "preproc/surface/wedges.hpp"
+
+#include "preproc/surface/defects.hpp"
+#include "quality/self_intersections.hpp"
+#include "tests/analytic_meshes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace scan2fea {
+namespace {
+
+// A sphere out of which one edge was pulled to a ridge.
+SurfaceMesh ridged_sphere() {
+  SurfaceMesh mesh = analytic::sphere(1, 3);
+  const Triangle& t = mesh.triangles[100];
+  const double edge = (mesh.vertices[t[0]] - mesh.vertices[t[1]]).norm();
+  for (const std::uint32_t v : {t[0], t[1]}) mesh.vertices[v] *= 1 + 1.6 * edge;
+  return mesh;
+}
+
+// A block leaned over by 45 degrees: two of its edges are that sharp, and so are the scan's.
+SurfaceMesh leaning_block(double edge_length) {
+  SurfaceMesh mesh = analytic::box({4, 4, 4}, edge_length);
+  for (Vec3& v : mesh.vertices) v.x() += v.z();
+  return mesh;
+}
+
+double least_angle_deg(const SurfaceMesh& mesh) {
+  double least = 180;
+  for (const Triangle& t : mesh.triangles)
+    least = std::min(least, smallest_angle_deg(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]));
+  return least;
+}
+
+double sharpest_deg(const SurfaceMesh& mesh, const ReferenceSurface& scan) {
+  double sharpest = 180;
+  for (const Wedge& w : find_wedges(mesh, scan, 90)) sharpest = std::min(sharpest, w.angle_deg);
+  return sharpest;
+}
+
+TEST(Wedges, AreOpenedWithoutHarm) {
+  const SurfaceMesh scan = analytic::sphere(1, 5);
+  const ReferenceSurface reference(scan);
+  SurfaceMesh mesh = ridged_sphere();
+  const double angle_before = least_angle_deg(mesh), sharpest_before = sharpest_deg(mesh, reference);
+  WedgeOptions options;
+  ASSERT_LT(sharpest_before, options.least_dihedral_deg);
+  const WedgeResult result = open_wedges(mesh, reference, options);
+  EXPECT_GT(result.before, 0u);
+  EXPECT_EQ(result.after, 0u);
+  EXPECT_GE(sharpest_deg(mesh, reference), options.least_dihedral_deg);
+  EXPECT_GE(least_angle_deg(mesh), std::min(angle_before, options.least_angle_deg));
+  EXPECT_TRUE(find_self_intersections(mesh).empty());
+  EXPECT_NEAR(enclosed_volume(mesh) / enclosed_volume(scan), 1, 1e-12);
+}
+
+TEST(Wedges, OfTheScanItselfAreLeftAlone) {
+  const SurfaceMesh scan = leaning_block(0.25);
+  SurfaceMesh mesh = leaning_block(0.5);
+  const SurfaceMesh before = mesh;
+  const WedgeResult result = open_wedges(mesh, ReferenceSurface(scan));
+  EXPECT_EQ(result.before, 0u);
+  EXPECT_EQ(mesh.vertices, before.vertices);
+}
+
+TEST(Wedges, FixedVerticesStay) {
+  const SurfaceMesh scan = analytic::sphere(1, 4);
+  SurfaceMesh mesh = ridged_sphere();
+  const SurfaceMesh before = mesh;
+  WedgeOptions options;
+  options.constraints.assign(mesh.vertices.size(), VertexConstraint::fixed);
+  const WedgeResult result = open_wedges(mesh, ReferenceSurface(scan), options);
+  EXPECT_EQ(result.after, result.before);
+  EXPECT_LT(result.sharpest_deg, options.least_dihedral_deg);
+  EXPECT_EQ(mesh.vertices, before.vertices);
+}
+
+}  // namespace
+}  // namespace scan2fea
