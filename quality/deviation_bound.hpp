@@ -30,9 +30,9 @@ struct DeviationBoundOptions {
 struct OneSidedDeviation {
   // Per triangle of the one surface, bounds of the distance of its farthest point: model units.
   std::vector<double> lower, upper;
+  std::vector<Vec3> farthest;  // the farthest of its points that were met, at distance `lower`
   double largest_lower = 0, largest_upper = 0;
-  std::uint32_t worst_face = 0;        // where the upper bound is largest
-  Vec3 farthest_point = Vec3::Zero();  // the farthest point that was met in it, at distance lower[worst_face]
+  std::uint32_t worst_face = 0;  // where the upper bound is largest
 };
 
 struct DeviationBound {
@@ -51,5 +51,9 @@ struct DeviationBound {
 // Distances below 1e-7 of the reference's diagonal are not told from each other.
 DeviationBound bound_deviation(const SurfaceMesh& mesh, const SurfaceMesh& reference,
                                const DeviationBoundOptions& options);
+
+// One of the two sides: from all points of `from` to `onto`.
+OneSidedDeviation bound_one_sided_deviation(const SurfaceMesh& from, const SurfaceMesh& onto,
+                                            const DeviationBoundOptions& options);
 
 }  // namespace scan2fea
