@@ -1,7 +1,6 @@
 #include "quality/deviation_bound.hpp"
 
 #include "preproc/mesh/error.hpp"
-#include "quality/triangle_tree.hpp"
 
 #include <tbb/parallel_for.h>
 
@@ -256,8 +255,13 @@ const OneSidedDeviation& DeviationBound::worse_side() const {
 
 DeviationBound bound_deviation(const SurfaceMesh& mesh, const SurfaceMesh& reference,
                                const DeviationBoundOptions& options) {
+  return bound_deviation(mesh, reference, TriangleTree(reference), options);
+}
+
+DeviationBound bound_deviation(const SurfaceMesh& mesh, const SurfaceMesh& reference,
+                               const TriangleTree& reference_tree, const DeviationBoundOptions& options) {
   const DeviationBoundOptions used = checked(options, reference);
-  const TriangleTree mesh_tree(mesh), reference_tree(reference);
+  const TriangleTree mesh_tree(mesh);
   DeviationBound bound;
   bound.to_reference = bound_side(mesh, mesh_tree, {reference, reference_tree}, used);
   bound.to_mesh = bound_side(reference, reference_tree, {mesh, mesh_tree}, used);

@@ -11,6 +11,7 @@
 #pragma once
 
 #include "preproc/mesh/surface_mesh.hpp"
+#include "quality/triangle_tree.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -51,6 +52,10 @@ struct DeviationBound {
 // Distances below 1e-7 of the reference's diagonal are not told from each other.
 DeviationBound bound_deviation(const SurfaceMesh& mesh, const SurfaceMesh& reference,
                                const DeviationBoundOptions& options);
+
+// The same for a reference whose tree of all triangles is there already.
+DeviationBound bound_deviation(const SurfaceMesh& mesh, const SurfaceMesh& reference,
+                               const TriangleTree& reference_tree, const DeviationBoundOptions& options);
 
 // One of the two sides: from all points of `from` to `onto`.
 OneSidedDeviation bound_one_sided_deviation(const SurfaceMesh& from, const SurfaceMesh& onto,

@@ -120,13 +120,13 @@ LocalRefinementResult refine_within(SurfaceMesh& mesh, const ReferenceSurface& s
   goal.edge = edge;
   LocalRefinementResult result;
   int rings = rings_of_patch;
-  for (int round = 0;; ++round) {
+  for (int round = 0; round < options.rounds && rings <= most_rings; ++round) {
     progress("local refinement", static_cast<double>(round) / options.rounds);
-    const DeviationBound bound = bound_deviation(mesh, scan.mesh, {.limit = goal.limit});
-    result.largest_deviation = bound.upper();
-    if (result.largest_deviation <= goal.limit || round == options.rounds) break;
+    const DeviationBound bound = bound_deviation(mesh, scan.mesh, tree, {.limit = goal.limit});
+    result.deviation_before_last_round = bound.upper();
+    if (result.deviation_before_last_round <= goal.limit) break;
     const std::vector<Place> places = places_beyond(mesh, scan, bound, goal.limit, edge);
-    if (!mend(mesh, {scan, tree}, places, rings, goal, options.most_vertices, result) && ++rings > most_rings) break;
+    if (!mend(mesh, {scan, tree}, places, rings, goal, options.most_vertices, result)) ++rings;
   }
   return result;
 }

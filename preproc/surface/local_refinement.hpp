@@ -20,14 +20,16 @@ struct LocalRefinementOptions {
   // Smaller angles are not made, nor made smaller; in [0, 60). Higher leaves less room to come near.
   double least_angle_deg = 35;
   std::size_t most_vertices = std::numeric_limits<std::size_t>::max();  // inserted; each makes two triangles more
-  // Of bounding and mending; each costs a bound of the whole surface. At least 1.
+  // Of bounding and mending; each costs a bound of the whole surface. At least 1; to know that the limit is reached, 2.
   int rounds = 10;
 };
 
 struct LocalRefinementResult {
-  double largest_deviation = 0;  // an upper bound, two-sided, model units
-  std::size_t patches = 0;       // that came nearer
-  std::size_t inserted = 0;      // vertices
+  // An upper bound, two-sided, model units. Where it is above the limit, a round of mending has followed that was not
+  // bounded any more.
+  double deviation_before_last_round = 0;
+  std::size_t patches = 0;   // that came nearer
+  std::size_t inserted = 0;  // vertices
 };
 
 // Precondition: `mesh` is closed, manifold and free of self-intersections, and so it is afterwards, with the same genus
