@@ -1,7 +1,6 @@
 #include "quality/deviation_bound.hpp"
 
 #include "preproc/mesh/error.hpp"
-#include "quality/triangle_tree.hpp"
 
 #include <tbb/parallel_for.h>
 
@@ -206,7 +205,7 @@ OneSidedDeviation bound_side(const SurfaceMesh& from, const TriangleTree& from_t
   OneSidedDeviation result;
   result.lower.resize(from.triangles.size());
   result.upper.resize(from.triangles.size());
-  std::vector<Vec3> farthest(from.triangles.size());
+  result.farthest.resize(from.triangles.size());
   for_each_block(from.triangles.size(), [&](std::size_t first, std::size_t last) {
     std::vector<Piece> stack;
     for (std::size_t leaf = first; leaf < last; ++leaf) {
@@ -216,7 +215,7 @@ OneSidedDeviation bound_side(const SurfaceMesh& from, const TriangleTree& from_t
       const FaceBound bound = bound_face(face, target, options, stack);
       result.lower[f] = std::sqrt(bound.lower2);
       result.upper[f] = std::sqrt(bound.upper2);
-      farthest[f] = bound.farthest;
+      result.farthest[f] = bound.farthest;
     }
   });
   for (std::uint32_t f = 0; f < result.upper.size(); ++f) {
@@ -224,8 +223,20 @@ OneSidedDeviation bound_side(const SurfaceMesh& from, const TriangleTree& from_t
     if (result.upper[f] > result.upper[result.worst_face]) result.worst_face = f;
   }
   result.largest_upper = result.upper[result.worst_face];
-  result.farthest_point = farthest[result.worst_face];
   return result;
+}
+
+DeviationBoundOptions checked(const DeviationBoundOptions& options, const SurfaceMesh& reference) {
+  if (!(options.limit >= 0) || !(options.tolerance > 0 && options.tolerance <= 1))
+    throw WrongUsage(
+        {.what = "options of the deviation's bound out of range",
+         .where = {},
+         .value = "limit " + std::to_string(options.limit) + ", tolerance " + std::to_string(options.tolerance),
+         .limit = "0 or more; above 0, at most 1",
+         .advice = {}});
+  DeviationBoundOptions used = options;
+  used.limit = std::max(options.limit, smallest_limit * bounding_box(reference.vertices).diagonal());
+  return used;
 }
 
 }  // namespace
@@ -244,20 +255,24 @@ const OneSidedDeviation& DeviationBound::worse_side() const {
 
 DeviationBound bound_deviation(const SurfaceMesh& mesh, const SurfaceMesh& reference,
                                const DeviationBoundOptions& options) {
-  if (!(options.limit >= 0) || !(options.tolerance > 0 && options.tolerance <= 1))
-    throw WrongUsage(
-        {.what = "options of the deviation's bound out of range",
-         .where = {},
-         .value = "limit " + std::to_string(options.limit) + ", tolerance " + std::to_string(options.tolerance),
-         .limit = "0 or more; above 0, at most 1",
-         .advice = {}});
-  const TriangleTree mesh_tree(mesh), reference_tree(reference);
-  DeviationBoundOptions used = options;
-  used.limit = std::max(options.limit, smallest_limit * bounding_box(reference.vertices).diagonal());
+  return bound_deviation(mesh, reference, TriangleTree(reference), options);
+}
+
+DeviationBound bound_deviation(const SurfaceMesh& mesh, const SurfaceMesh& reference,
+                               const TriangleTree& reference_tree, const DeviationBoundOptions& options) {
+  const DeviationBoundOptions used = checked(options, reference);
+  const TriangleTree mesh_tree(mesh);
   DeviationBound bound;
   bound.to_reference = bound_side(mesh, mesh_tree, {reference, reference_tree}, used);
   bound.to_mesh = bound_side(reference, reference_tree, {mesh, mesh_tree}, used);
   return bound;
+}
+
+OneSidedDeviation bound_one_sided_deviation(const SurfaceMesh& from, const SurfaceMesh& onto,
+                                            const DeviationBoundOptions& options) {
+  const DeviationBoundOptions used = checked(options, onto);
+  const TriangleTree from_tree(from), onto_tree(onto);
+  return bound_side(from, from_tree, {onto, onto_tree}, used);
 }
 
 }  // namespace scan2fea

@@ -11,6 +11,7 @@
 #pragma once
 
 #include "preproc/mesh/surface_mesh.hpp"
+#include "quality/triangle_tree.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -30,9 +31,9 @@ struct DeviationBoundOptions {
 struct OneSidedDeviation {
   // Per triangle of the one surface, bounds of the distance of its farthest point: model units.
   std::vector<double> lower, upper;
+  std::vector<Vec3> farthest;  // the farthest of its points that were met, at distance `lower`
   double largest_lower = 0, largest_upper = 0;
-  std::uint32_t worst_face = 0;        // where the upper bound is largest
-  Vec3 farthest_point = Vec3::Zero();  // the farthest point that was met in it, at distance lower[worst_face]
+  std::uint32_t worst_face = 0;  // where the upper bound is largest
 };
 
 struct DeviationBound {
@@ -51,5 +52,13 @@ struct DeviationBound {
 // Distances below 1e-7 of the reference's diagonal are not told from each other.
 DeviationBound bound_deviation(const SurfaceMesh& mesh, const SurfaceMesh& reference,
                                const DeviationBoundOptions& options);
+
+// The same for a reference whose tree of all triangles is there already.
+DeviationBound bound_deviation(const SurfaceMesh& mesh, const SurfaceMesh& reference,
+                               const TriangleTree& reference_tree, const DeviationBoundOptions& options);
+
+// One of the two sides: from all points of `from` to `onto`.
+OneSidedDeviation bound_one_sided_deviation(const SurfaceMesh& from, const SurfaceMesh& onto,
+                                            const DeviationBoundOptions& options);
 
 }  // namespace scan2fea

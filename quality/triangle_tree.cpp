@@ -90,7 +90,7 @@ void TriangleTree::build(const SurfaceMesh& mesh, std::span<const std::uint32_t>
     centres.push_back({0.5 * (a.cwiseMin(b).cwiseMin(c) + a.cwiseMax(b).cwiseMax(c)), t});
   }
   leaves_.reserve(triangles.size());
-  nodes_.reserve(triangles.size() / 2 + 1);
+  nodes_.reserve(2 * triangles.size() / 3 + 1);
   triangle_of_leaf_.reserve(triangles.size());
   leaf_of_triangle_.resize(mesh.triangles.size());
 

@@ -52,7 +52,7 @@ TEST(DeviationBound, SeesWhatHappensInsideOfFaces) {
   EXPECT_GE(bound.to_reference.largest_upper, std::sqrt(0.5) - 1e-12);
   EXPECT_NEAR(bound.to_mesh.largest_upper, 1, 2e-3);
   EXPECT_EQ(&bound.worse_side(), &bound.to_mesh);
-  EXPECT_EQ(bound.to_mesh.farthest_point, Vec3(1, 1, 1));
+  EXPECT_EQ(bound.to_mesh.farthest[bound.to_mesh.worst_face], Vec3(1, 1, 1));
 }
 
 TEST(DeviationBound, FindsAHoleThatFewSamplesMiss) {

@@ -88,6 +88,10 @@ ClearMoves move_clear(SurfaceMesh& mesh, const std::vector<Vec3>& targets, int s
     for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
       if (arrived[v]) continue;
       const Vec3 from = mesh.vertices[v], way = targets[v] - from;
+      if (way.isZero(0)) {
+        arrived[v] = true;
+        continue;
+      }
       for (const double part : parts) {
         if (!mover.try_move(v, from + part * way)) continue;
         arrived[v] = part == 1;

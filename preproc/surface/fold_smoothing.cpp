@@ -1,6 +1,7 @@
 #include "preproc/surface/fold_smoothing.hpp"
 
 #include "preproc/surface/adjacency.hpp"
+#include "preproc/surface/clear_moves.hpp"
 #include "preproc/surface/face_marks.hpp"
 #include "preproc/surface/soup_adjacency.hpp"
 
@@ -62,6 +63,7 @@ bool part_touching_vertices(SurfaceMesh& mesh, const std::vector<FacePair>& pair
 std::vector<FacePair> smooth_folds(SurfaceMesh& mesh, std::vector<FacePair> pairs, RepairResult& result) {
   constexpr int most_sweeps = 20;
   constexpr int sweeps_without_gain = 3;
+  constexpr int sweeps_back = 8;
   const std::vector<Vec3> before = mesh.vertices;
   const VertexStars stars(mesh);
   const double reach = 0.01 * bounding_box(mesh.vertices).diagonal();
@@ -89,6 +91,7 @@ std::vector<FacePair> smooth_folds(SurfaceMesh& mesh, std::vector<FacePair> pair
     fewest = std::min(fewest, pairs.size());
   }
   if (put_back_folds(mesh, before, moved, pairs_before, pairs)) pairs = find_self_intersections(mesh);
+  if (pairs.empty()) move_clear(mesh, before, sweeps_back);
   for (std::size_t v = 0; v < before.size(); ++v)
     if (mesh.vertices[v] != before[v])
       result.changes.push_back({RepairKind::SmoothedFold, before[v], (mesh.vertices[v] - before[v]).norm()});

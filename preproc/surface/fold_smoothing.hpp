@@ -15,8 +15,9 @@ bool part_touching_vertices(SurfaceMesh& mesh, const std::vector<FacePair>& pair
 
 // Vertices of intersecting faces move half way to the mean of their neighbours until their faces are clear, no farther
 // than an edge or a hundredth of the surface's diagonal, beyond which the shape would change. This undoes the folds of
-// a noisy scan. Sheets that cross it does not part: where more than half of a fold's pairs remain, it is put back.
-// Returns the pairs that remain. Precondition: `pairs` are the surface's intersecting pairs; closed.
+// a noisy scan; then they go back towards the places that were measured, as far as nothing meets. Sheets that cross it
+// does not part: where more than half of a fold's pairs remain, it is put back. Returns the pairs that remain.
+// Precondition: `pairs` are the surface's intersecting pairs; closed.
 std::vector<FacePair> smooth_folds(SurfaceMesh& mesh, std::vector<FacePair> pairs, RepairResult& result);
 
 }  // namespace scan2fea

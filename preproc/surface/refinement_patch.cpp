@@ -1,0 +1,396 @@
+#include "preproc/surface/refinement_patch.hpp"
+
+#include "preproc/surface/clear_moves.hpp"
+#include "preproc/surface/defects.hpp"
+#include "preproc/surface/delaunay_flips.hpp"
+#include "preproc/surface/halfedge_mesh.hpp"
+#include "preproc/surface/locate.hpp"
+#include "preproc/surface/nearest_vertices.hpp"
+#include "preproc/surface/refined_scan.hpp"
+#include "preproc/surface/shape_fit.hpp"
+#include "quality/deviation_bound.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <unordered_map>
+
+namespace scan2fea {
+namespace {
+
+using Index = HalfedgeMesh::Index;
+
+constexpr int most_steps = 6;
+// Of the merit, which is a fourth power of distances: a step must gain at least 3 % of the excess.
+constexpr double least_gain = 0.88;
+// A step without insertions that gains so much needs none.
+constexpr double good_gain = 0.5;
+// Scan triangles longer than this part of the mean edge are cut, so that a patch answers for parts of large ones.
+constexpr double longest_scan_edge = 0.7;
+// Where the fit's extra weight on far samples begins, over the limit, and its most.
+constexpr double tail_of_limit = 0.5;
+constexpr double most_lift = 300;
+
+void grow(BoundingBox& box, const Vec3& p) {
+  box.low = box.low.cwiseMin(p);
+  box.high = box.high.cwiseMax(p);
+}
+
+BoundingBox box_of(const SurfaceMesh& mesh, const Triangle& t) {
+  BoundingBox box{mesh.vertices[t[0]], mesh.vertices[t[0]]};
+  grow(box, mesh.vertices[t[1]]);
+  grow(box, mesh.vertices[t[2]]);
+  return box;
+}
+
+bool meet(const BoundingBox& a, const BoundingBox& b) {
+  return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
+}
+
+Vec3 centroid(const SurfaceMesh& mesh, const Triangle& t) {
+  return (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3;
+}
+
+// The faces with the vertices that they use; `vertices` says which of the mesh's each was, and may hold some already.
+SurfaceMesh part_of(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& faces,
+                    std::vector<std::uint32_t>& vertices) {
+  std::unordered_map<std::uint32_t, std::uint32_t> place;
+  for (std::uint32_t i = 0; i < vertices.size(); ++i) place.emplace(vertices[i], i);
+  SurfaceMesh part;
+  part.triangles.reserve(faces.size());
+  for (const std::uint32_t f : faces) {
+    Triangle t = mesh.triangles[f];
+    for (std::uint32_t& v : t) {
+      const auto [at, is_new] = place.emplace(v, static_cast<std::uint32_t>(vertices.size()));
+      if (is_new) vertices.push_back(v);
+      v = at->second;
+    }
+    part.triangles.push_back(t);
+  }
+  part.vertices.reserve(vertices.size());
+  for (const std::uint32_t v : vertices) part.vertices.push_back(mesh.vertices[v]);
+  return part;
+}
+
+// What is kept of a scan or a surface: the faces for which a patch answers.
+SurfaceMesh selected(const SurfaceMesh& mesh, const std::vector<bool>& keep) {
+  std::vector<std::uint32_t> faces, vertices;
+  for (std::uint32_t f = 0; f < keep.size(); ++f)
+    if (keep[f]) faces.push_back(f);
+  return part_of(mesh, faces, vertices);
+}
+
+// One state of a patch, and how good it is.
+struct Trial {
+  SurfaceMesh patch;
+  bool sound = false;
+  double merit = 0;           // sum of ((deviation - limit) / limit)^4 over the faces of both sides beyond the limit
+  double missing_angles = 0;  // degrees
+  double shape = 0;           // sum of F(eta)
+  std::uint32_t worst = 0;    // face of the patch
+
+  std::size_t vertices() const { return patch.vertices.size(); }
+  bool is_better(const Trial& other) const {
+    if (merit > 0 || other.merit > 0) return merit < other.merit;
+    return vertices() != other.vertices() ? vertices() < other.vertices() : shape < other.shape;
+  }
+};
+
+// All that stays as it is while a patch changes.
+class Surroundings {
+ public:
+  Surroundings(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& patch_faces,
+               const std::vector<std::uint32_t>& patch_vertices, const SurfaceMesh& patch,
+               const std::vector<bool>& fixed, const BoundingBox& box, const SearchedScan& scan, const PatchGoal& goal)
+      : goal_(goal), fixed_(fixed), box_(box), shared_(patch_vertices.size()) {
+    std::vector<std::uint32_t> around;
+    for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f)
+      if (meet(box_of(mesh, mesh.triangles[f]), box) && !std::binary_search(patch_faces.begin(), patch_faces.end(), f))
+        around.push_back(f);
+    std::vector<std::uint32_t> vertices = patch_vertices;
+    frozen_ = part_of(mesh, around, vertices);
+    cut_scan(scan, patch);
+  }
+
+  bool has_scan() const { return fit_scan_.has_value(); }
+
+  // The state itself, without any fit.
+  Trial judged(SurfaceMesh patch) const {
+    Trial trial{.patch = std::move(patch)};
+    judge(trial);
+    return trial;
+  }
+
+  // The state after a fit, or as far towards it as nothing meets.
+  Trial fitted(SurfaceMesh patch) const {
+    Trial trial{.patch = patch};
+    fit(trial.patch);
+    judge(trial);
+    if (trial.sound) return trial;
+    SurfaceMesh moved = with_frozen(patch);
+    if (!find_self_intersections(moved).empty()) return trial;
+    std::vector<Vec3> targets = moved.vertices;
+    std::copy(trial.patch.vertices.begin(), trial.patch.vertices.end(), targets.begin());
+    move_clear(moved, targets, 2);
+    trial.patch.vertices.assign(moved.vertices.begin(),
+                                moved.vertices.begin() + static_cast<std::ptrdiff_t>(trial.vertices()));
+    judge(trial);
+    return trial;
+  }
+
+ private:
+  void cut_scan(const SearchedScan& scan, const SurfaceMesh& patch) {
+    std::vector<std::uint32_t> faces, vertices;
+    scan.tree.for_each_overlap(box_, [&](std::uint32_t f) { faces.push_back(f); });
+    if (faces.empty()) return;
+    std::sort(faces.begin(), faces.end());
+    scan_ = part_of(scan.surface.mesh, faces, vertices);
+    const SurfaceMesh fine =
+        refine_scan(scan_, {std::vector<double>(scan_.vertices.size(), goal_.edge)}, longest_scan_edge, 8).mesh;
+
+    const SurfaceMesh around = with_frozen(patch);
+    const VertexStars stars(around);
+    const std::vector<Triangle> neighbours = face_neighbours(around, stars);
+    const std::vector<Vec3> normals = face_normals(around);
+    const WalkableMesh on{around, stars, neighbours, normals};
+    const TriangleTree tree(around);
+    std::vector<Vec3> centroids(fine.triangles.size());
+    for (std::size_t f = 0; f < centroids.size(); ++f) centroids[f] = centroid(fine, fine.triangles[f]);
+    const std::vector<Vec3> fine_normals = face_normals(fine);
+    const std::vector<std::uint32_t> start = nearest_vertices(centroids, fine_normals, around, goal_.edge);
+    std::vector<bool> fits(fine.triangles.size()), answered(fine.triangles.size());
+    const auto is_of_patch = [&](std::uint32_t face) { return face < patch.triangles.size(); };
+    for (std::size_t f = 0; f < fits.size(); ++f) {
+      const std::uint32_t first = stars.corners(start[f]).front() / 3;
+      fits[f] = is_of_patch(descend_to_nearest(on, {centroids[f], fine_normals[f], 0}, first).face);
+      answered[f] = fits[f] || is_of_patch(tree.closest(centroids[f], first).triangle);
+      for (const std::uint32_t v : fine.triangles[f])
+        answered[f] = answered[f] || is_of_patch(tree.closest(fine.vertices[v], first).triangle);
+    }
+    answered_ = selected(fine, answered);
+    fit_part_ = selected(fine, fits);
+    if (!fit_part_.triangles.empty()) fit_scan_.emplace(fit_part_);
+  }
+
+  SurfaceMesh with_frozen(const SurfaceMesh& patch) const {
+    SurfaceMesh mesh = patch;
+    const auto own = static_cast<std::uint32_t>(patch.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(), frozen_.vertices.begin() + static_cast<std::ptrdiff_t>(shared_),
+                         frozen_.vertices.end());
+    for (Triangle t : frozen_.triangles) {
+      for (std::uint32_t& v : t)
+        if (v >= shared_) v = v - static_cast<std::uint32_t>(shared_) + own;
+      mesh.triangles.push_back(t);
+    }
+    return mesh;
+  }
+
+  void fit(SurfaceMesh& patch) const {
+    ShapeFitOptions options;
+    options.rounds = 6;
+    options.fidelity_of_diagonal = std::min(0.09, goal_.fidelity / fit_scan_->diagonal);
+    options.lift_tail_of_diagonal = tail_of_limit * goal_.limit / fit_scan_->diagonal;
+    options.most_lift = most_lift;
+    options.constraints.assign(patch.vertices.size(), VertexConstraint::free);
+    for (std::size_t v = 0; v < fixed_.size(); ++v)
+      if (fixed_[v]) options.constraints[v] = VertexConstraint::fixed;
+    optimise_shape_and_fit(patch, *fit_scan_, options);
+  }
+
+  void judge(Trial& trial) const {
+    trial.sound = false;
+    const SurfaceMesh& patch = trial.patch;
+    for (const Vec3& p : patch.vertices)
+      if (!(p.array() > box_.low.array()).all() || !(p.array() < box_.high.array()).all()) return;
+    const SurfaceMesh around = with_frozen(patch);
+    std::vector<std::uint32_t> own(patch.triangles.size());
+    std::iota(own.begin(), own.end(), 0U);
+    if (!find_self_intersections(around, own).empty()) return;
+    const SurfaceDefects defects =
+        find_defects(patch, *fit_scan_, scan_vertices_of_faces(patch, *fit_scan_), goal_.least_angle_deg);
+    if (!defects.meshable()) return;
+    trial.sound = true;
+    trial.missing_angles = defects.missing_angles_deg;
+    trial.shape = 0;
+    for (const Triangle& t : patch.triangles)
+      trial.shape += shape_energy({}, patch.vertices[t[0]], patch.vertices[t[1]], patch.vertices[t[2]]).value;
+
+    const OneSidedDeviation of_patch = bound_one_sided_deviation(patch, scan_, {.limit = goal_.limit});
+    const OneSidedDeviation of_scan = bound_one_sided_deviation(answered_, around, {.limit = goal_.limit});
+    trial.merit = 0;
+    for (const OneSidedDeviation* side : {&of_patch, &of_scan})
+      for (const double d : side->upper) trial.merit += std::pow(std::max(0.0, d / goal_.limit - 1), 4);
+    trial.worst = of_patch.worst_face;
+    if (of_scan.largest_upper > of_patch.largest_upper)
+      trial.worst = face_at(patch, of_scan.farthest[of_scan.worst_face],
+                            area_vector(answered_, answered_.triangles[of_scan.worst_face]).normalized());
+  }
+
+  // The face of the patch nearest to a point of the scan, one that faces the other way only if all others are far.
+  std::uint32_t face_at(const SurfaceMesh& patch, const Vec3& point, const Vec3& normal) const {
+    std::uint32_t nearest = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::uint32_t f = 0; f < patch.triangles.size(); ++f) {
+      const auto& [a, b, c] = patch.triangles[f];
+      const Vec3 at = closest_point_on_triangle(point, patch.vertices[a], patch.vertices[b], patch.vertices[c]);
+      double squared = (point - at).squaredNorm();
+      if (area_vector(patch, patch.triangles[f]).dot(normal) < 0) squared += goal_.edge * goal_.edge;
+      if (squared >= least) continue;
+      least = squared;
+      nearest = f;
+    }
+    return nearest;
+  }
+
+  const PatchGoal& goal_;
+  const std::vector<bool>& fixed_;
+  const BoundingBox& box_;
+  std::size_t shared_;  // vertices of the patch as it was, which come first in frozen_
+  SurfaceMesh frozen_;
+  SurfaceMesh scan_;      // within the box
+  SurfaceMesh answered_;  // parts of it whose nearest face, whichever way that looks, was one of the patch
+  SurfaceMesh fit_part_;  // and those that belong to the patch
+  std::optional<ReferenceSurface> fit_scan_;
+};
+
+// Edges inside of the patch, of a face and the faces across its edges.
+std::vector<Index> edges_around(const HalfedgeMesh& mesh, Index face) {
+  std::vector<Index> edges;
+  const auto add = [&](Index h) {
+    if (mesh.is_border(h)) return;
+    const Index edge = std::min(h, mesh.opposite(h));
+    if (std::find(edges.begin(), edges.end(), edge) == edges.end()) edges.push_back(edge);
+  };
+  for (Index h = 3 * face; h < 3 * face + 3; ++h) {
+    add(h);
+    if (mesh.is_border(h)) continue;
+    add(HalfedgeMesh::next(mesh.opposite(h)));
+    add(HalfedgeMesh::prev(mesh.opposite(h)));
+  }
+  return edges;
+}
+
+// The best of all sound trials, the first of equals; nothing where none is.
+std::optional<Trial> best_of(std::vector<Trial>& trials, const Trial& now) {
+  std::optional<Trial> best;
+  for (Trial& t : trials) {
+    if (!t.sound || t.missing_angles > now.missing_angles) continue;
+    if (!best || t.is_better(*best)) best = std::move(t);
+  }
+  return best;
+}
+
+// One step: what lowers the deviation most, changes without new vertices first.
+std::optional<Trial> next_state(const Trial& now, const Surroundings& surroundings, bool may_insert) {
+  const HalfedgeMesh mesh(now.patch);
+  const std::vector<Index> edges = edges_around(mesh, now.worst);
+  std::vector<Trial> trials(1 + edges.size());
+  tbb::parallel_for(std::size_t{0}, trials.size(), [&](std::size_t i) {
+    HalfedgeMesh changed = mesh;
+    if (i > 0) {
+      if (!changed.can_flip(edges[i - 1])) return;
+      changed.flip(edges[i - 1]);
+    }
+    trials[i] = surroundings.fitted(changed.to_surface());
+  });
+  std::optional<Trial> best = best_of(trials, now);
+  if (!may_insert || (best && best->merit <= good_gain * now.merit)) return best;
+  trials.assign(edges.size(), {});
+  tbb::parallel_for(std::size_t{0}, trials.size(), [&](std::size_t i) {
+    HalfedgeMesh changed = mesh;
+    const Vec3 middle = 0.5 * (mesh.points[mesh.origin(edges[i])] + mesh.points[mesh.target(edges[i])]);
+    const Index v = changed.split_edge(edges[i], middle);
+    restore_delaunay(changed, v, {.crease_deg = 90});
+    trials[i] = surroundings.fitted(changed.to_surface());
+  });
+  if (best) trials.push_back(std::move(*best));
+  return best_of(trials, now);
+}
+
+}  // namespace
+
+RefinementPatch::RefinementPatch(const SurfaceMesh& mesh, const VertexStars& stars, std::uint32_t seed, int rings,
+                                 double reach) {
+  std::vector<std::uint32_t> inner(mesh.triangles[seed].begin(), mesh.triangles[seed].end());
+  const auto add_stars = [&](std::size_t first) {
+    const std::size_t last = inner.size();
+    for (std::size_t i = first; i < last; ++i)
+      for (const std::uint32_t corner : stars.corners(inner[i])) faces_.push_back(corner / 3);
+    std::sort(faces_.begin(), faces_.end());
+    faces_.erase(std::unique(faces_.begin(), faces_.end()), faces_.end());
+  };
+  const auto add_vertex = [&](std::uint32_t v) {
+    if (std::find(inner.begin(), inner.end(), v) == inner.end()) inner.push_back(v);
+  };
+  add_stars(0);
+  for (int ring = 0; ring < rings; ++ring) {
+    const std::size_t first = inner.size();
+    for (const std::uint32_t f : faces_)
+      for (const std::uint32_t v : mesh.triangles[f]) add_vertex(v);
+    add_stars(first);
+  }
+  // Where the rim touches itself in a vertex, the vertex becomes an inner one.
+  for (bool grown = true; grown;) {
+    vertices_.clear();
+    patch_ = part_of(mesh, faces_, vertices_);
+    const VertexStars patch_stars(patch_);
+    const std::vector<Triangle> neighbours = face_neighbours(patch_, patch_stars);
+    std::vector<int> rim_edges(vertices_.size(), 0);
+    for (std::size_t f = 0; f < neighbours.size(); ++f)
+      for (std::size_t k = 0; k < 3; ++k)
+        if (neighbours[f][k] == no_face)
+          for (const std::size_t other : {(k + 1) % 3, (k + 2) % 3}) ++rim_edges[patch_.triangles[f][other]];
+    const std::size_t first = inner.size();
+    fixed_.assign(vertices_.size(), false);
+    for (std::size_t v = 0; v < rim_edges.size(); ++v) {
+      fixed_[v] = rim_edges[v] > 0;
+      if (rim_edges[v] > 2) add_vertex(vertices_[v]);
+    }
+    grown = inner.size() > first;
+    if (grown) add_stars(first);
+  }
+  box_ = bounding_box(patch_.vertices);
+  box_.low.array() -= reach;
+  box_.high.array() += reach;
+}
+
+bool RefinementPatch::improve(const SurfaceMesh& mesh, const SearchedScan& scan, const PatchGoal& goal) {
+  const Surroundings surroundings(mesh, faces_, vertices_, patch_, fixed_, box_, scan, goal);
+  if (!surroundings.has_scan()) return false;
+  Trial now = surroundings.judged(patch_);
+  if (!now.sound) return false;
+  bool improved = false;
+  for (int step = 0; step < most_steps && now.merit > 0; ++step) {
+    std::optional<Trial> next = next_state(now, surroundings, inserted() < goal.most_vertices);
+    if (!next || next->merit > least_gain * now.merit) break;
+    now = std::move(*next);
+    patch_ = now.patch;
+    improved = true;
+  }
+  return improved;
+}
+
+void RefinementPatch::write(SurfaceMesh& mesh) const {
+  std::vector<std::uint32_t> number = vertices_;
+  for (std::size_t v = 0; v < patch_.vertices.size(); ++v) {
+    if (v < vertices_.size()) {
+      mesh.vertices[vertices_[v]] = patch_.vertices[v];
+    } else {
+      number.push_back(static_cast<std::uint32_t>(mesh.vertices.size()));
+      mesh.vertices.push_back(patch_.vertices[v]);
+    }
+  }
+  for (std::size_t f = 0; f < patch_.triangles.size(); ++f) {
+    const Triangle& t = patch_.triangles[f];
+    const Triangle global{number[t[0]], number[t[1]], number[t[2]]};
+    if (f < faces_.size())
+      mesh.triangles[faces_[f]] = global;
+    else
+      mesh.triangles.push_back(global);
+  }
+}
+
+}  // namespace scan2fea

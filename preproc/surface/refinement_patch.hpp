@@ -1,0 +1,60 @@
+// A piece of a surface around a place that lies too far from the scan, brought nearer by itself.
+//
+// Tries, in turn and all around the worst face: a fit with more weight on what is far (shape_fit.hpp), edges flipped
+// (an edge that runs along a ridge follows it, one that crosses it cuts it off), edges split at their middle, each
+// followed by that fit; takes what lowers the deviation most, and goes on from there. The rest of the surface stays as
+// it is, so that the triangles around are not disturbed and patches apart from each other can be worked on at once.
+#pragma once
+
+#include "preproc/surface/reference_surface.hpp"
+#include "quality/triangle_tree.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace scan2fea {
+
+struct PatchGoal {
+  double limit = 0;               // largest deviation, two-sided, model units
+  double fidelity = 0;            // residual that costs as much as F(eta) = 1 (see shape_fit.hpp), model units
+  double least_angle_deg = 35;    // smaller angles are not made, nor made smaller
+  double edge = 0;                // mean edge length of the surface, model units
+  std::size_t most_vertices = 0;  // that may be inserted
+};
+
+// The scan and a tree of all its faces.
+struct SearchedScan {
+  const ReferenceSurface& surface;
+  const TriangleTree& tree;
+};
+
+class RefinementPatch {
+ public:
+  // The faces around the vertices of face `seed` and those within `rings` rings of them. `reach`: how far from the
+  // patch the scan and the surface are looked at, at least the deviation there. O(faces of the patch), and a bit a
+  // face of the mesh.
+  RefinementPatch(const SurfaceMesh& mesh, const VertexStars& stars, std::uint32_t seed, int rings, double reach);
+
+  // Everything that `improve` reads and writes lies in here: patches whose boxes do not meet may be improved at once
+  // and written one after the other.
+  const BoundingBox& box() const { return box_; }
+
+  // Whether the patch came nearer to the limit. Never passes through itself or the surface around, never inverts a
+  // face against the scan. A few ms a trial and thousand scan faces within reach; about 20 trials a step, at most 6
+  // steps. Deterministic, whatever the number of threads.
+  bool improve(const SurfaceMesh& mesh, const SearchedScan& scan, const PatchGoal& goal);
+
+  std::size_t inserted() const { return patch_.vertices.size() - vertices_.size(); }
+
+  // Puts the patch in its place; new vertices and faces go to the end of the mesh's.
+  void write(SurfaceMesh& mesh) const;
+
+ private:
+  std::vector<std::uint32_t> faces_;     // of the mesh
+  std::vector<std::uint32_t> vertices_;  // of the mesh, in the order of the patch's
+  std::vector<bool> fixed_;              // per vertex: on the patch's rim
+  SurfaceMesh patch_;
+  BoundingBox box_;
+};
+
+}  // namespace scan2fea
