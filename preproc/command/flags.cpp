@@ -201,12 +201,20 @@ void add_simplify_flags(CLI::App& command, SimplifyOptions& options) {
   command
       .add_option_function<std::string>(
           "--feature-angle",
-          [](const std::string& text) {
-            if (text != "off")
-              throw CLI::ValidationError("--feature-angle", "'" + text + "': sharp edges are not kept yet; try off");
+          [&options](const std::string& text) {
+            if (text == "off") {
+              options.features.angle_deg.reset();
+              return;
+            }
+            char* end = nullptr;
+            const double angle = std::strtod(text.c_str(), &end);
+            if (text.empty() || *end != '\0' || !(angle > 0 && angle < 180))
+              throw CLI::ValidationError("--feature-angle", "'" + text + "' is neither off nor degrees, 0 to 180");
+            options.features.angle_deg = angle;
+            options.features.continuation_angle_deg = std::min(options.features.continuation_angle_deg, angle);
           },
-          "Edges sharper than this would be kept; only 'off' is known yet")
-      ->type_name("off");
+          "Edges whose faces' normals differ by more are kept, degrees (40); off for organic scans")
+      ->type_name("DEG|off");
   add_choice<Effort>(command, "--effort", options.effort,
                      {{"low", Effort::low}, {"normal", Effort::normal}, {"high", Effort::high}},
                      "Time spent on shape and fidelity; normal is the default");

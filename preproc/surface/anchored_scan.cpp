@@ -13,6 +13,10 @@ namespace {
 
 // Over the wanted edge length: with features halved to this, each sample has vertices of its own beside it.
 constexpr double longest_feature_edge = 0.56;
+constexpr double equilateral_area = 0.43301270189221932;  // sqrt(3)/4, of edge length 1
+// Coarse triangles stray from curves as they do from surfaces: the sag of a mean edge on a radius of a tenth of the
+// diagonal.
+constexpr double sag_of_mean_edge = 1.2;
 // Growth of edge lengths from the curves into the surface.
 constexpr double gradation_from_curves = 0.25;
 // Of sampling, and of telling the surface what came of it.
@@ -250,11 +254,14 @@ AnchoredScan anchor_scan(const FeatureScan& scan, const SizingOptions& options, 
     halve_long_edges(welded.mesh, welded.edge_length, welded.features, longest_scan_edge, longest_feature_edge);
   };
   refine();
+  const double mean_edge_squared = surface_area(scan.scan) / (equilateral_area * wanted);
+  const double tolerance = std::max(scan.curve_tolerance,
+                                    sag_of_mean_edge * mean_edge_squared / bounding_box(scan.scan.vertices).diagonal());
   FeatureCurves curves;
   SampledPlaces places;
   const auto sample = [&] {
     curves = trace_feature_curves(welded.mesh, welded.sharp(), welded.edge_length);
-    places = sample_curves(welded.mesh, curves, welded.edge_length, {.tolerance = scan.curve_tolerance});
+    places = sample_curves(welded.mesh, curves, welded.edge_length, {.tolerance = tolerance});
   };
   for (int round = 0; round < rounds_of_spacing; ++round) {
     sample();

@@ -22,4 +22,12 @@ std::vector<bool> vertices_on_lines(const FeatureNet& net, std::size_t vertices)
   return on_line;
 }
 
+VertexConstraints held_lines(const FeatureNet& net, std::size_t vertices) {
+  if (net.empty()) return {};
+  VertexConstraints constraints(vertices, VertexConstraint::free);
+  for (const FeatureLine& line : net.lines)
+    for (const VertexOnLine& at : line.vertices) constraints[at.vertex] = VertexConstraint::fixed;
+  return constraints;
+}
+
 }  // namespace scan2fea

@@ -3,7 +3,9 @@
 
 #include "preproc/mesh/surface_mesh.hpp"
 #include "preproc/surface/feature_edge.hpp"
+#include "preproc/surface/vertex_constraint.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -44,5 +46,8 @@ std::vector<FeatureEdge> edges_of(const FeatureNet& net);
 
 // Per vertex of a surface of so many, whether it lies on a line.
 std::vector<bool> vertices_on_lines(const FeatureNet& net, std::size_t vertices);
+
+// The same as constraints that hold vertices on lines where they are; none for an empty net.
+VertexConstraints held_lines(const FeatureNet& net, std::size_t vertices);
 
 }  // namespace scan2fea

@@ -111,10 +111,7 @@ GuardResult guard_surface(SurfaceMesh& mesh, const FeatureNet& given_net, const 
   GuardOptions options = given_options;
   FeatureNet net = given_net;
   const std::vector<FeatureEdge> lines = edges_of(net);
-  if (!net.empty()) {
-    options.constraints.resize(mesh.vertices.size(), VertexConstraint::free);
-    for (const FeatureEdge& e : lines) options.constraints[e[0]] = options.constraints[e[1]] = VertexConstraint::fixed;
-  }
+  if (!net.empty()) options.constraints = held_lines(net, mesh.vertices.size());
   if (!(options.least_angle_deg >= 0 && options.least_angle_deg < 60) || options.rounds < 1) {
     throw WrongUsage(
         {.what = "guard options out of range",

@@ -45,7 +45,7 @@ GuardResult guard_surface(SurfaceMesh& mesh, const ReferenceSurface& scan, const
                           const Progress& progress = {});
 
 // The same with features: vertices on the net's lines stay where they are, and angles between two lines are the part's
-// own.
+// own; options.constraints is not looked at.
 GuardResult guard_surface(SurfaceMesh& mesh, const FeatureNet& net, const ReferenceSurface& scan,
                           const GuardOptions& options = {}, const Progress& progress = {});
 

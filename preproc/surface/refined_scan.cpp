@@ -11,8 +11,6 @@ namespace {
 
 // More vertices than this times the old ones: the new ones, at the end, are then ordered anew.
 constexpr double most_growth = 1.3;
-// Each halves all long edges; a cube of 12 triangles needs about 10 for a fine lattice.
-constexpr int most_passes = 16;
 
 using EdgeKey = std::uint64_t;  // its two vertices, the smaller one in the upper half
 
@@ -136,10 +134,10 @@ std::vector<std::uint32_t> consecutive(std::size_t first, std::size_t count) {
 }  // namespace
 
 void halve_long_edges(SurfaceMesh& mesh, std::vector<double>& edge_length, std::vector<FeatureEdge>& features,
-                      double limit, double feature_limit) {
+                      double limit, double feature_limit, int passes) {
   EdgeSplitter splitter(mesh, features);
   std::vector<std::uint32_t> active = consecutive(0, mesh.triangles.size());
-  for (int pass = 0; pass < most_passes && !active.empty(); ++pass) {
+  for (int pass = 0; pass < passes && !active.empty(); ++pass) {
     const std::vector<EdgeKey> keys = long_edges(mesh, edge_length, features, limit, feature_limit, active);
     const std::size_t first = mesh.vertices.size();
     for (const EdgeKey key : keys) {
@@ -178,11 +176,11 @@ std::vector<std::uint32_t> order_along_curve(SurfaceMesh& mesh, std::vector<doub
   return place;
 }
 
-RefinedScan refine_scan(SurfaceMesh scan, const SizingField& sizing, double limit) {
+RefinedScan refine_scan(SurfaceMesh scan, const SizingField& sizing, double limit, int passes) {
   const std::size_t scan_vertices = scan.vertices.size();
   RefinedScan result{.mesh = std::move(scan), .edge_length = sizing.edge_length, .scan_vertex_at = {}};
   std::vector<FeatureEdge> no_features;
-  halve_long_edges(result.mesh, result.edge_length, no_features, limit, limit);
+  halve_long_edges(result.mesh, result.edge_length, no_features, limit, limit, passes);
   result.scan_vertex_at = consecutive(0, scan_vertices);
   if (static_cast<double>(result.mesh.vertices.size()) > most_growth * static_cast<double>(scan_vertices)) {
     std::vector<std::uint32_t> place = order_along_curve(result.mesh, result.edge_length);

@@ -21,13 +21,13 @@ struct RefinedScan {
 // of the lattice may hold no vertex and the result gets holes. Each pass halves all long edges at once, so that both
 // sides agree and slivers do not multiply; at most `passes` passes (a cube of 12 triangles needs about 10 for a fine
 // lattice). Cost: linear in the result, which for long edges has about 2 (edge / (limit h))^2 triangles for one.
-RefinedScan refine_scan(SurfaceMesh scan, const SizingField& sizing, double limit);
+RefinedScan refine_scan(SurfaceMesh scan, const SizingField& sizing, double limit, int passes = 16);
 
 // The halving itself. New vertices follow the old ones, their edge lengths those in `edge_length`; triangle f stays a
 // part of triangle f. `features` are halved with their edges, and longer than `feature_limit` times the edge length,
 // are long: what is to be sampled on them needs a vertex near by.
 void halve_long_edges(SurfaceMesh& mesh, std::vector<double>& edge_length, std::vector<FeatureEdge>& features,
-                      double limit, double feature_limit);
+                      double limit, double feature_limit, int passes = 16);
 
 // A new vertex on an edge, `part` of the way from its first to its second vertex, 0 < part < 1.
 struct EdgeSplit {

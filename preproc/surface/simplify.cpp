@@ -32,6 +32,14 @@ constexpr double longest_edge_to_contract = 1;
 // Most fits reach it without the guard.
 constexpr double least_angle_deg = 38.5;
 
+// Of the diagonal, the dial between shape and fit at the least on parts with edges: most of them have plane faces and
+// cylinders, which triangles can follow.
+constexpr double fidelity_of_parts = 0.0003;
+
+// How far the result's edges may be from the curves: of the diagonal, and over the scan's noise.
+constexpr double curve_tolerance = 0.00015;
+constexpr double noise_on_curves = 1.5;
+
 // Of the first fit, which finds out how near the triangles can come.
 constexpr int first_rounds = 2;
 
@@ -70,20 +78,44 @@ FitPlan plan_of(Effort effort) {
 // of the fields it would be the peak of the memory.
 class Scan {
  public:
-  explicit Scan(const SurfaceMesh& surface) : mesh(surface) {}
+  // `sharp`: its creases.
+  explicit Scan(const SurfaceMesh& surface, std::vector<FeatureEdge> sharp = {}, double tolerance_of_curves = 0)
+      : mesh(surface), features_(surface, std::move(sharp), tolerance_of_curves) {}
+
   const ReferenceSurface& reference() {
-    if (!reference_) reference_.emplace(mesh);
+    if (!reference_) {
+      if (has_features())
+        reference_.emplace(features_);
+      else
+        reference_.emplace(mesh);
+    }
     return *reference_;
+  }
+  const FeatureScan& features() const { return features_; }
+  bool has_features() const { return !features_.empty(); }  // creases or borders
+  bool is_closed() const { return features_.border.empty(); }
+  Scan without_features() const { return Scan(mesh); }
+
+  // What the reference's vertices have, by vertex of the scan: of the copies at a crease, the one that `wins`.
+  template <class Wins>
+  std::vector<double> by_vertex(std::vector<double> of_reference, const Wins& wins) const {
+    const std::vector<std::uint32_t>& vertex = features_.cut.vertex_of_copy;
+    for (std::size_t c = mesh.vertices.size(); c < of_reference.size(); ++c)
+      of_reference[vertex[c]] = wins(of_reference[vertex[c]], of_reference[c]);
+    of_reference.resize(mesh.vertices.size());
+    return of_reference;
   }
 
   const SurfaceMesh& mesh;
 
  private:
+  FeatureScan features_;
   std::optional<ReferenceSurface> reference_;
 };
 
 struct Candidate {
   SurfaceMesh mesh;
+  FeatureNet net;
   std::size_t crossings_mended = 0;
   std::string failure;  // empty where `mesh` is valid
   ShapeFitResult fit;
@@ -95,14 +127,17 @@ std::string describe(const SurfaceDefects& defects) {
 }
 
 // Exact volume, then the guard.
-void finish(Candidate& candidate, const ReferenceSurface& scan, const Progress& progress) {
+void finish(Candidate& candidate, Scan& scan, const Progress& progress) {
   try {
     GuardOptions guard;
     guard.least_angle_deg = least_angle_deg;
-    const GuardResult guarded = guard_surface(candidate.mesh, scan, guard, progress);
+    guard.keep_volume = scan.is_closed();
+    const GuardResult guarded = guard_surface(candidate.mesh, candidate.net, scan.reference(), guard, progress);
     candidate.crossings_mended = guarded.before.crossings.size();
     if (guarded.clean())
-      open_wedges(candidate.mesh, scan);
+      open_wedges(
+          candidate.mesh, scan.reference(),
+          {.keep_volume = scan.is_closed(), .constraints = held_lines(candidate.net, candidate.mesh.vertices.size())});
     else
       candidate.failure = describe(guarded.after);
   } catch (const NotMeshable& e) {
@@ -115,24 +150,29 @@ Candidate by_lattice(Scan& scan, const SizingOptions& sizing, const FitPlan& pla
   LatticeOptions lattice_options;
   lattice_options.sizing = sizing;
   lattice_options.sizing.strength *= strength_factor;
-  LatticeResult lattice = remesh_by_lattice(scan.mesh, lattice_options, progress);
-  if (!lattice.failure.empty()) return {.mesh = {}, .crossings_mended = 0, .failure = lattice.failure, .fit = {}};
-
-  Candidate candidate{.mesh = std::move(lattice.mesh), .crossings_mended = 0, .failure = {}, .fit = {}};
+  LatticeResult lattice = scan.has_features() ? remesh_by_lattice(scan.features(), lattice_options, progress)
+                                              : remesh_by_lattice(scan.mesh, lattice_options, progress);
+  Candidate candidate;
+  // Where features need more triangles than were asked for, they get them.
+  candidate.failure = scan.has_features() ? "" : lattice.failure;
+  if (!candidate.failure.empty()) return candidate;
+  candidate.mesh = std::move(lattice.mesh);
+  candidate.net = std::move(lattice.net);
   ShapeFitOptions fit;
   fit.rounds = first_rounds;
   fit.fidelity_of_diagonal = plan.fidelity_of_diagonal;
   fit.nearest_vertex_of_scan_vertex = std::move(lattice.vertex_of_scan_vertex);
-  const ShapeFitResult first = optimise_shape_and_fit(candidate.mesh, scan.reference(), fit, progress);
+  const ShapeFitResult first = optimise_shape_and_fit(candidate.mesh, candidate.net, scan.reference(), fit, progress);
 
   // What the triangles are too large for, or noise, no fit can follow: drawn to it hard, they only lose their shape.
-  fit.fidelity_of_diagonal = std::clamp(plan.fidelity_of_residual * first.rms_distance / scan.reference().diagonal,
-                                        plan.fidelity_of_diagonal, 0.01);
+  const double least_fidelity = scan.has_features() ? fidelity_of_parts : plan.fidelity_of_diagonal;
+  fit.fidelity_of_diagonal =
+      std::clamp(plan.fidelity_of_residual * first.rms_distance / scan.reference().diagonal, least_fidelity, 0.01);
   fit.lift_tail_of_diagonal = *fit.lift_tail_of_diagonal * fit.fidelity_of_diagonal / plan.fidelity_of_diagonal;
   fit.rounds = plan.rounds;
-  fit.nearest_vertex_of_scan_vertex.reset();
-  candidate.fit = optimise_shape_and_fit(candidate.mesh, scan.reference(), fit, progress);
-  finish(candidate, scan.reference(), progress);
+  if (!scan.has_features()) fit.nearest_vertex_of_scan_vertex.reset();
+  candidate.fit = optimise_shape_and_fit(candidate.mesh, candidate.net, scan.reference(), fit, progress);
+  finish(candidate, scan, progress);
   return candidate;
 }
 
@@ -165,7 +205,8 @@ Candidate best_by_lattice(Scan& scan, const SizingOptions& sizing, Effort effort
 Candidate by_contraction(Scan& scan, const SizingOptions& sizing, const Progress& progress) {
   // Long triangles, as CAD makes them, are no start for even ones.
   RefinedScan refined = refine_scan(scan.mesh, compute_sizing_field(scan.mesh, sizing), longest_edge_to_contract);
-  Candidate contracted{.mesh = std::move(refined.mesh), .crossings_mended = 0, .failure = {}, .fit = {}};
+  Candidate contracted;
+  contracted.mesh = std::move(refined.mesh);
   CollapseOptions collapse_options;
   collapse_options.target_faces = static_cast<std::size_t>(std::lround(sizing.triangles));
   collapse_options.cost = CollapseCost::sized_length;
@@ -178,12 +219,12 @@ Candidate by_contraction(Scan& scan, const SizingOptions& sizing, const Progress
   fit.rounds = 12;
   optimise_shape_and_fit(fitted.mesh, scan.reference(), fit, progress);
   const std::vector<Vec3> targets = fitted.mesh.vertices;
-  finish(fitted, scan.reference(), progress);
+  finish(fitted, scan, progress);
   if (fitted.failure.empty()) return fitted;
 
   SurfaceMesh near_fit = contracted.mesh;
   move_clear(near_fit, targets);
-  if (preserve_volume_clear(near_fit, scan.mesh)) contracted.mesh = std::move(near_fit);
+  if (!scan.is_closed() || preserve_volume_clear(near_fit, scan.mesh)) contracted.mesh = std::move(near_fit);
   return contracted;
 }
 
@@ -191,7 +232,8 @@ Candidate by_contraction(Scan& scan, const SizingOptions& sizing, const Progress
 Candidate by_collapse(Scan& scan, double faces, const SimplifyOptions& options, const Progress& progress) {
   CollapseOptions collapse_options = options.collapse;
   collapse_options.target_faces = static_cast<std::size_t>(std::lround(faces));
-  Candidate candidate{.mesh = scan.mesh, .crossings_mended = 0, .failure = {}, .fit = {}};
+  Candidate candidate;
+  candidate.mesh = scan.mesh;
   collapse(candidate.mesh, collapse_options, progress);
   GuardOptions guard;
   guard.least_angle_deg = 0;
@@ -202,18 +244,42 @@ Candidate by_collapse(Scan& scan, double faces, const SimplifyOptions& options, 
   return candidate;
 }
 
+// The lattice with its features; where triangles of the wanted size are too large for them, with smaller ones.
+Candidate by_lattice_with_features(Scan& scan, SizingOptions sizing, Effort effort, SimplifyResult& result,
+                                   const Progress& progress) {
+  constexpr int most_trials = 3;
+  constexpr double growth = 1.5;  // of the number of triangles
+  const double wanted = sizing.triangles;
+  Candidate candidate;
+  for (int trial = 0; trial < most_trials; ++trial, sizing.triangles *= growth) {
+    candidate = best_by_lattice(scan, sizing, effort, progress);
+    if (candidate.failure.empty()) break;
+  }
+  const auto triangles = static_cast<double>(candidate.mesh.triangles.size());
+  if (candidate.failure.empty() && triangles > 1.005 * wanted + 1)
+    result.feature_remark = "triangles of the wanted size are too large for the features: made " +
+                            std::to_string(candidate.mesh.triangles.size()) + " instead of " +
+                            std::to_string(std::lround(wanted));
+  return candidate;
+}
+
 // One surface of the sizes asked for, by the method asked for or, where the lattice fails, by contraction.
 Candidate make_surface(Scan& scan, const SizingOptions& sizing, const SimplifyOptions& options, Effort effort,
                        SimplifyResult& result, const Progress& progress) {
   result.method = options.method;
   result.fallback_reason.clear();
-  Candidate candidate = options.method == SimplifyMethod::lattice
-                            ? best_by_lattice(scan, sizing, effort, progress)
-                            : by_collapse(scan, sizing.triangles, options, progress);
+  result.feature_remark.clear();
+  Candidate candidate = options.method == SimplifyMethod::collapse
+                            ? by_collapse(scan, sizing.triangles, options, progress)
+                        : scan.has_features() ? by_lattice_with_features(scan, sizing, effort, result, progress)
+                                              : best_by_lattice(scan, sizing, effort, progress);
   if (!candidate.failure.empty() && options.method == SimplifyMethod::lattice) {
     result.method = SimplifyMethod::collapse;
     result.fallback_reason = candidate.failure;
-    candidate = by_contraction(scan, sizing, progress);
+    if (!scan.features().sharp.empty())
+      result.feature_remark = "triangles of the wanted size are too large for the features: creases are not kept";
+    Scan plain = scan.without_features();
+    candidate = by_contraction(plain, sizing, progress);
   }
   if (!candidate.failure.empty())
     throw NotMeshable({.what = "no valid surface of this size: " + candidate.failure,
@@ -223,6 +289,7 @@ Candidate make_surface(Scan& scan, const SizingOptions& sizing, const SimplifyOp
                        .advice = "more triangles (--faces, or a smaller --edge-length or --deviation)"});
   result.crossings_mended = candidate.crossings_mended;
   result.faces_after = candidate.mesh.triangles.size();
+  result.result_features = edges_of(candidate.net);
   return candidate;
 }
 
@@ -233,7 +300,7 @@ void lower_worst(Candidate& candidate, Scan& scan, int rounds, SimplifyResult& r
   constexpr double most_vertices = 0.001;  // of the triangles: at most 0.2 % more triangles
   LocalRefinementOptions options;
   options.limit = outlier * candidate.fit.rms_distance;
-  if (!(options.limit > 0) || rounds == 0) return;
+  if (!(options.limit > 0) || rounds == 0 || scan.has_features()) return;
   options.rounds = rounds;
   options.least_angle_deg = least_angle_deg;
   options.most_vertices = static_cast<std::size_t>(most_vertices * static_cast<double>(result.faces_after));
@@ -282,7 +349,8 @@ SurfaceMesh make_surface_within(Scan& scan, const LargestDeviation& wanted, cons
     const DeviationBound bound = bound_deviation(surface, scan.mesh, {.limit = wanted.distance});
     result.largest_deviation = bound.upper();
     const bool better = best.triangles.empty() || result.largest_deviation < best_result.largest_deviation;
-    const std::vector<double> deviation = local_deviation(surface, scan.reference(), bound);
+    const std::vector<double> deviation = scan.by_vertex(local_deviation(surface, scan.reference(), bound),
+                                                         [](double a, double b) { return std::max(a, b); });
     if (better) {
       best = std::move(surface);
       best_result = result;
@@ -318,8 +386,14 @@ double wanted_faces(const TargetSize& size, const SurfaceMesh& scan) {
 
 SimplifyResult simplify(const SurfaceMesh& mesh, SurfaceMesh& surface, const SimplifyOptions& options,
                         const Progress& progress) {
-  Scan scan(mesh);
   SimplifyResult result;
+  Features features;
+  if (options.method == SimplifyMethod::lattice)
+    features =
+        options.given_features ? Features{.edges = *options.given_features} : find_features(mesh, options.features);
+  result.feature_edges = features.edges.size();
+  Scan scan(mesh, std::move(features.edges),
+            std::max(curve_tolerance * bounding_box(mesh.vertices).diagonal(), noise_on_curves * features.noise));
   result.faces_before = mesh.triangles.size();
   if (const auto* bound = std::get_if<LargestDeviation>(&options.size)) {
     require_positive(bound->distance, "the deviation");
@@ -336,7 +410,8 @@ SimplifyResult simplify(const SurfaceMesh& mesh, SurfaceMesh& surface, const Sim
       // A quick first surface shows where edges of the curvature's lengths come too far from the scan.
       sizing.sizing = Sizing::curvature;
       const SurfaceMesh first = make_surface(scan, sizing, options, Effort::low, result, progress).mesh;
-      factors = error_factors(first, scan.reference(), error_renewal);
+      factors = scan.by_vertex(error_factors(first, scan.reference(), error_renewal),
+                               [](double a, double b) { return std::min(a, b); });
       sizing.factors = factors;
     }
     Candidate candidate = make_surface(scan, sizing, options, options.effort, result, progress);

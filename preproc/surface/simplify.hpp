@@ -6,12 +6,15 @@
 #include "preproc/mesh/progress.hpp"
 #include "preproc/mesh/surface_mesh.hpp"
 #include "preproc/surface/collapse.hpp"
+#include "preproc/surface/features.hpp"
 #include "preproc/surface/sizing_field.hpp"
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 namespace scan2fea {
 
@@ -44,7 +47,11 @@ struct SimplifyOptions {
   TargetSize size = FaceRatio{0.13};
   Effort effort = Effort::normal;
   Sizing sizing = Sizing::curvature;
-  double gradation = 0.12;   // largest |grad h| of the edge length h, 0.02 to 1; smaller is smoother
+  double gradation = 0.12;  // largest |grad h| of the edge length h, 0.02 to 1; smaller is smoother
+  // Creases and their corners are kept exactly by the `lattice` method, and open borders always are. The angle unset:
+  // no creases.
+  FeatureOptions features;
+  std::optional<std::vector<FeatureEdge>> given_features;  // edges of the scan, instead of those that would be found
   CollapseOptions collapse;  // objective, placement and cost of the `collapse` method; its face count is set by `size`
 };
 
@@ -55,15 +62,19 @@ struct SimplifyResult {
   std::size_t faces_after = 0;
   std::size_t crossings_mended = 0;  // pairs of faces that passed through one another before the guard
   double largest_deviation = 0;      // an upper bound, two-sided, model units; only where the size is a deviation
+  std::size_t feature_edges = 0;     // of the scan, that were found or given
+  // Where triangles of the wanted size are too large for the features: how that was settled; empty where it was not so.
+  std::string feature_remark;
+  std::vector<FeatureEdge> result_features;  // edges of the result that stand for creases
 };
 
-// `mesh` must be closed, manifold, outward and free of self-intersections (see `repair`); so is the result, with the
-// same genus and components. The enclosed volume of every component is kept to rounding by the `lattice` method, and by
-// `collapse` where the lattice gave way to it; asked for directly, `collapse` is the paper's method as it is, and moves
-// only what passes through itself afterwards.
-// Throws NotMeshable where neither way gives a valid surface, WrongUsage for options out of range, Cancelled. On any
-// throw `mesh` is as it was. The same bytes for any number of threads. O(n log n).
-// Not guaranteed: that a deviation which is possible is reached, or with the fewest triangles.
+// `mesh` must be manifold, outward and free of self-intersections (see `repair`), closed or with borders; so is the
+// result, with the same genus, components and borders, and with a chain of edges along each crease. The enclosed volume
+// of every closed component is kept to rounding by the `lattice` method, and by `collapse` where the lattice gave way
+// to it; asked for directly, `collapse` is the paper's method as it is, and moves only what passes through itself
+// afterwards. Throws NotMeshable where neither way gives a valid surface, WrongUsage for options out of range,
+// Cancelled. On any throw `mesh` is as it was. The same bytes for any number of threads. O(n log n). Not guaranteed:
+// that a deviation which is possible is reached, or with the fewest triangles.
 SimplifyResult simplify(SurfaceMesh& mesh, const SimplifyOptions& options = {}, const Progress& progress = {});
 
 // The same for those who need the scan afterwards, to compare with: a copy of it less.

@@ -278,7 +278,7 @@ WedgeResult open_wedges(SurfaceMesh& mesh, const ReferenceSurface& scan, const W
         }
   }
   if (mesh.vertices != whole.vertices && options.keep_volume) {
-    preserve_volume(mesh, scan.mesh, options.constraints);
+    preserve_volume(mesh, scan.whole, options.constraints);
     if (!find_self_intersections(mesh).empty()) mesh = whole;
   }
   const std::vector<Wedge> left = find_wedges(mesh, scan, options.least_dihedral_deg);

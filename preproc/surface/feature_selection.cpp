@@ -1,0 +1,122 @@
+#include "preproc/surface/feature_selection.hpp"
+
+#include "preproc/surface/adjacency.hpp"
+#include "preproc/surface/components.hpp"
+#include "preproc/surface/cut_surface.hpp"
+#include "preproc/surface/union_find.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace scan2fea {
+namespace {
+
+constexpr double equilateral_area = 0.43301270189221932;  // sqrt(3)/4, of edge length 1
+// Each joins patches with neighbours; a nest of small ones takes several.
+constexpr int most_rounds = 20;
+
+// A crease and the patches beside it, the smaller number first.
+struct CreaseEdge {
+  FeatureEdge edge;
+  std::array<std::uint32_t, 2> patches;
+  double length;
+  double bend;  // angle between the faces' normals
+};
+
+std::vector<CreaseEdge> creases_with_patches(const SurfaceMesh& scan, const std::vector<FeatureEdge>& sharp,
+                                             const std::vector<std::uint32_t>& patch_of_face,
+                                             const std::vector<Vec3>& normals) {
+  struct Side {
+    FeatureEdge edge;
+    std::uint32_t face;
+  };
+  std::vector<Side> sides;
+  for (std::uint32_t f = 0; f < scan.triangles.size(); ++f)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const FeatureEdge edge = feature_edge(scan.triangles[f][k], scan.triangles[f][(k + 1) % 3]);
+      if (std::binary_search(sharp.begin(), sharp.end(), edge)) sides.push_back({edge, f});
+    }
+  std::sort(sides.begin(), sides.end(),
+            [](const Side& a, const Side& b) { return a.edge != b.edge ? a.edge < b.edge : a.face < b.face; });
+  std::vector<CreaseEdge> creases;
+  for (std::size_t i = 1; i < sides.size(); ++i) {
+    if (sides[i].edge != sides[i - 1].edge) continue;
+    const auto [low, high] = std::minmax(patch_of_face[sides[i].face], patch_of_face[sides[i - 1].face]);
+    const Vec3 &m = normals[sides[i].face], &n = normals[sides[i - 1].face];
+    creases.push_back({sides[i].edge,
+                       {low, high},
+                       (scan.vertices[sides[i].edge[0]] - scan.vertices[sides[i].edge[1]]).norm(),
+                       std::atan2(m.cross(n).norm(), m.dot(n))});
+  }
+  return creases;
+}
+
+// One round; whether anything was joined.
+bool join_small_patches(const SurfaceMesh& scan, const std::vector<Vec3>& normals, double least_area,
+                        std::vector<FeatureEdge>& sharp) {
+  const CutSurface cut = cut_along(scan, sharp);
+  const Components patches = find_components(cut.mesh);
+  std::vector<std::uint32_t> patch_of_face;
+  std::vector<double> area(patches.count, 0);
+  for (const Triangle& t : cut.mesh.triangles) {
+    patch_of_face.push_back(patches.of_vertex[t[0]]);
+    area[patch_of_face.back()] += area_vector(cut.mesh, t).norm() / 2;
+  }
+  const std::vector<CreaseEdge> creases = creases_with_patches(scan, sharp, patch_of_face, normals);
+  // Between two patches: how long their border is, and how it bends.
+  struct Border {
+    double length = 0, bend = 0;
+  };
+  std::map<std::array<std::uint32_t, 2>, Border> borders;
+  for (const CreaseEdge& c : creases) {
+    if (c.patches[0] == c.patches[1]) continue;
+    borders[c.patches].length += c.length;
+    borders[c.patches].bend += c.length * c.bend;
+  }
+  struct Smoothest {
+    double bend = std::numeric_limits<double>::infinity();
+    std::array<std::uint32_t, 2> border{};
+  };
+  std::vector<Smoothest> smoothest(patches.count);
+  for (const auto& [pair, border] : borders)
+    for (const std::uint32_t p : pair) {
+      const double bend = border.bend / border.length;
+      if (area[p] < least_area && bend < smoothest[p].bend) smoothest[p] = {bend, pair};
+    }
+  std::vector<std::array<std::uint32_t, 2>> opened;
+  for (const Smoothest& s : smoothest)
+    if (std::isfinite(s.bend)) opened.push_back(s.border);
+  if (opened.empty()) return false;
+  std::sort(opened.begin(), opened.end());
+  // A crease that ends inside a small patch goes with it.
+  for (const CreaseEdge& c : creases) {
+    const bool inside = c.patches[0] == c.patches[1] && area[c.patches[0]] < least_area;
+    if (inside || std::binary_search(opened.begin(), opened.end(), c.patches))
+      sharp.erase(std::lower_bound(sharp.begin(), sharp.end(), c.edge));
+  }
+  return true;
+}
+
+void drop_short_chains(const SurfaceMesh& scan, double least_length, std::vector<FeatureEdge>& sharp) {
+  UnionFind chains(scan.vertices.size());
+  for (const auto& [a, b] : sharp) chains.unite(a, b);
+  std::vector<double> length(scan.vertices.size(), 0);
+  for (const auto& [a, b] : sharp) length[chains.find(a)] += (scan.vertices[a] - scan.vertices[b]).norm();
+  std::erase_if(sharp, [&](const FeatureEdge& e) { return length[chains.find(e[0])] < least_length; });
+}
+
+}  // namespace
+
+std::vector<FeatureEdge> select_features(const SurfaceMesh& scan, std::vector<FeatureEdge> sharp, double edge_length,
+                                         const FeatureSelection& selection) {
+  std::sort(sharp.begin(), sharp.end());
+  const std::vector<Vec3> normals = face_normals(scan);
+  const double least_area = selection.least_triangles * equilateral_area * edge_length * edge_length;
+  for (int round = 0; round < most_rounds && !sharp.empty(); ++round)
+    if (!join_small_patches(scan, normals, least_area, sharp)) break;
+  drop_short_chains(scan, selection.shortest_chain * edge_length, sharp);
+  return sharp;
+}
+
+}  // namespace scan2fea
