@@ -199,7 +199,7 @@ int main(int argc, char** argv) {
     write(flat(triangulate(rectangle(100, 60), 1.2)), "sheet.ply");
     write(extrude(triangulate(disc50, 2), 3, 3), "coin.ply");
     write(extrude(triangulate(bracket(24), 1.3), 10, 10), "bracket.ply");
-    write(extrude(triangulate(bracket(5), std::nullopt), 10, 1), "coarse-bracket.ply");
+    write(extrude(triangulate(bracket(4), std::nullopt), 10, 1), "coarse-bracket.ply");
     if (argc == 3) {
       const SurfaceMesh fandisk = read_surface(argv[2]);
       const double diagonal = bounding_box(fandisk.vertices).diagonal();
