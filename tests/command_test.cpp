@@ -52,6 +52,23 @@ TEST_F(Command, EmptyFileIsUnreadable) {
   expect_failure("empty.stl", 3);
 }
 
+TEST_F(Command, HolesAreClosedOrKept) {
+  SurfaceMesh tube = analytic::cylinder(1, 4, 40, 20);
+  std::erase_if(tube.triangles, [&](const Triangle& t) { return *std::max_element(t.begin(), t.end()) >= 21 * 40; });
+  write_surface(tube, path("tube.ply"));
+  const std::string input = "'" + path("tube.ply") + "' -o '" + path("out.ply") + "' --force ";
+  EXPECT_EQ(run_command("repair " + input).exit_code, 4) << "its ends are too large to close";
+  EXPECT_EQ(run_command("repair " + input + "--holes keep").exit_code, 0);
+  EXPECT_EQ(read_surface(path("out.ply")).triangles.size(), tube.triangles.size());
+  EXPECT_EQ(run_command("repair " + input + "--holes patch").exit_code, 2);
+}
+
+TEST_F(Command, AVolumeNeedsItsHolesClosed) {
+  const auto result = run_command("run '" + scan_of_a_sphere() + "' -o '" + path("out.inp") + "' --holes keep");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(last_line_of(result.standard_error), HasSubstr("closed"));
+}
+
 TEST_F(Command, TruncatedBinaryStlIsUnreadable) {
   write_surface(analytic::sphere(1, 2), path("whole.stl"));
   const std::string whole = contents(path("whole.stl"));

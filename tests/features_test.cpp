@@ -125,6 +125,13 @@ TEST(Features, NoiseIsMeasured) {
     }
 }
 
+TEST(Features, CoarsePartsAreNotNoisy) {
+  // Creases are everywhere, and no quadric fits anywhere.
+  for (const SurfaceMesh& part : {analytic::cylinder(1, 3, 12, 1), analytic::cylinder(1, 0.1, 16, 1),
+                                  analytic::slab_with_holes(2, 1), analytic::box({1, 2, 3}, 1)})
+    EXPECT_LT(find_features(part).noise, 1e-12);
+}
+
 TEST(Features, NoiseIsNotTakenForFeatures) {
   // The mean edge is 0.12: faces are tilted by up to 25 degrees.
   const SurfaceMesh noisy = analytic::noisy(analytic::torus(3, 1, 180, 60), 0.01, 1);

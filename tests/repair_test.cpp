@@ -374,6 +374,71 @@ TEST(Repair, ASurfaceThatIsOneTangleIsNotMeshable) {
   EXPECT_THAT(message_of_failure(analytic::noisy(analytic::sphere(1, 3), 0.5, 11)), HasSubstr("intersects"));
 }
 
+RepairOptions keeping_holes() {
+  RepairOptions options;
+  options.holes = Holes::keep;
+  return options;
+}
+
+SurfaceMesh tube() {
+  return without_faces(analytic::cylinder(1, 4, 40, 20), [](const Vec3& p) { return p[2] < 1e-9 || p[2] > 4 - 1e-9; });
+}
+
+TEST(Repair, OpenSurfacesStayOpenWhereHolesAreKept) {
+  const SurfaceMesh sphere = analytic::sphere(1, 4);
+  const SurfaceMesh punctured = without_faces(sphere, [](const Vec3& p) { return p[2] > 0.9 || p[0] > 0.95; });
+  for (const SurfaceMesh& open : {analytic::sheet(4, 3, 0.5), tube(), punctured}) {
+    SurfaceMesh mesh = open;
+    const std::size_t border = check_validity(mesh).boundary_edges;
+    repair(mesh, keeping_holes());
+    EXPECT_EQ(mesh.triangles.size(), open.triangles.size());
+    EXPECT_EQ(check_validity(mesh).boundary_edges, border);
+    EXPECT_TRUE(check_validity(mesh).manifold());
+  }
+}
+
+TEST(Repair, ASheetInTwoPiecesIsWeldedWhereHolesAreKept) {
+  SurfaceMesh mesh = torn(analytic::sheet(4, 3, 0.5));
+  repair(mesh, keeping_holes());
+  const SurfaceValidity validity = check_validity(mesh);
+  EXPECT_TRUE(validity.manifold());
+  EXPECT_EQ(validity.components, 1u);
+  EXPECT_EQ(validity.boundary_edges, 2u * (8 + 6));
+}
+
+TEST(Repair, AnOpenSurfaceIsTurnedOutwardsWhereThatMeansSomething) {
+  SurfaceMesh inside_out = analytic::reversed(tube());
+  repair(inside_out, keeping_holes());
+  EXPECT_GT(enclosed_volume(inside_out), 0);
+  for (const SurfaceMesh& sheet : {analytic::sheet(4, 3, 0.5), analytic::reversed(analytic::sheet(4, 3, 0.5))}) {
+    SurfaceMesh mesh = sheet;
+    repair(mesh, keeping_holes());
+    EXPECT_EQ(mesh.triangles, sheet.triangles);
+  }
+}
+
+TEST(Repair, IntersectionsOfOpenSurfacesAreRemovedAndTheirBordersStay) {
+  // A spike from inside through the wall of a tube, and a tube across a sheet.
+  SurfaceMesh spiked = tube();
+  std::uint32_t middle = 0;
+  for (std::uint32_t v = 0; v < spiked.vertices.size(); ++v)
+    if ((spiked.vertices[v] - Vec3(1, 0, 2)).norm() < 1e-9) middle = v;
+  spiked.vertices[middle] = Vec3(-1.5, 0, 2);
+  const std::size_t border = check_validity(spiked).boundary_edges;
+  repair(spiked, keeping_holes());
+  EXPECT_TRUE(check_validity(spiked).manifold());
+  EXPECT_EQ(check_validity(spiked).boundary_edges, border);
+  EXPECT_TRUE(find_self_intersections(spiked).empty());
+}
+
+TEST(Repair, KeepingHolesChangesNothingOfClosedSurfaces) {
+  SurfaceMesh closed = analytic::noisy(analytic::sphere(1, 4), 0.02, 1), kept = closed;
+  repair(closed);
+  repair(kept, keeping_holes());
+  EXPECT_EQ(closed.triangles, kept.triangles);
+  EXPECT_EQ(closed.vertices, kept.vertices);
+}
+
 TEST(Repair, IsDeterministic) {
   SurfaceMesh first = analytic::noisy(analytic::sphere(1, 4), 0.03, 3);
   SurfaceMesh second = first;

@@ -122,6 +122,8 @@ void add_size_flags(CLI::App& command, SizeFlags& flags) {
 }
 
 void add_repair_flags(CLI::App& command, RepairOptions& options) {
+  add_choice<Holes>(command, "--holes", options.holes, {{"close", Holes::close}, {"keep", Holes::keep}},
+                    "What becomes of holes; kept ones make a surface that no volume fits in");
   command
       .add_option_function<std::string>(
           "--largest-hole",

@@ -1,5 +1,6 @@
 #include "preproc/command/make_mesh.hpp"
 #include "preproc/command/sub_commands.hpp"
+#include "preproc/mesh/error.hpp"
 
 namespace scan2fea::command {
 
@@ -9,7 +10,15 @@ SubCommand add_run(CLI::App& root) {
   add_surface_flags(*app, *job);
   add_tetrahedralize_flags(*app, *job->pipeline.tetrahedralize, job->pipeline.order);
   add_msh_version_flag(*app, job->msh_version);
-  return {app, [job] { return make_mesh(*job); }};
+  return {app, [job] {
+            if (job->pipeline.repair->holes == Holes::keep)
+              throw WrongUsage({.what = "a volume needs a closed surface",
+                                .where = {},
+                                .value = "--holes keep",
+                                .limit = "--holes close",
+                                .advice = "scan2fea surface for an open one"});
+            return make_mesh(*job);
+          }};
 }
 
 }  // namespace scan2fea::command

@@ -9,6 +9,7 @@
 #include "quality/self_intersections.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <optional>
@@ -61,6 +62,30 @@ void log_cuts(const SurfaceMesh& mesh, const FaceMarks& marks, RepairResult& res
         {RepairKind::Intersection, cuts.area[i] > 0 ? Vec3(weighted[i] / cuts.area[i]) : any[i], cuts.area[i]});
 }
 
+// The border edges of a surface, to be known again by their places when the indices are others.
+class Borders {
+ public:
+  explicit Borders(const SurfaceMesh& mesh) {
+    const Twins twins = find_twins(mesh);
+    for (std::uint32_t h = 0; h < twins.size(); ++h)
+      if (twins[h] == no_twin) edges_.push_back(key(mesh, h));
+    std::sort(edges_.begin(), edges_.end());
+  }
+  bool empty() const { return edges_.empty(); }
+  bool share_an_edge(const SurfaceMesh& mesh, const BorderLoop& loop) const {
+    return std::any_of(loop.begin(), loop.end(),
+                       [&](std::uint32_t h) { return std::binary_search(edges_.begin(), edges_.end(), key(mesh, h)); });
+  }
+
+ private:
+  using Key = std::array<double, 6>;
+  static Key key(const SurfaceMesh& mesh, std::uint32_t h) {
+    const Vec3 &a = mesh.vertices[start_vertex(mesh, h)], &b = mesh.vertices[end_vertex(mesh, h)];
+    return {a[0], a[1], a[2], b[0], b[1], b[2]};
+  }
+  std::vector<Key> edges_;
+};
+
 // Faces at edges of more than two faces: a patch may have met another one.
 void mark_non_manifold(const SurfaceMesh& mesh, FaceMarks& marks) {
   EdgeGroups(mesh).for_each([&](const std::uint32_t* first, const std::uint32_t* last) {
@@ -74,7 +99,8 @@ void mark_non_manifold(const SurfaceMesh& mesh, FaceMarks& marks) {
 IntersectionRemoval remove_intersections(SurfaceMesh& mesh, RepairResult& result, const Progress& progress) {
   std::vector<FacePair> pairs = find_self_intersections(mesh);
   result.intersecting_pairs = pairs.size();
-  if (!pairs.empty() && unite_shells(mesh, pairs, result)) pairs = find_self_intersections(mesh);
+  const bool closed = pairs.empty() || Borders(mesh).empty();
+  if (!pairs.empty() && closed && unite_shells(mesh, pairs, result)) pairs = find_self_intersections(mesh);
   if (!pairs.empty() && part_touching_vertices(mesh, pairs, result)) pairs = find_self_intersections(mesh);
   if (!pairs.empty()) pairs = smooth_folds(mesh, std::move(pairs), result);
 
@@ -91,6 +117,7 @@ IntersectionRemoval remove_intersections(SurfaceMesh& mesh, RepairResult& result
     grow(mesh, marks, rounds[i].rings);
     mark_islands(mesh, marks);
     log_cuts(mesh, marks, result);
+    const Borders borders(mesh);
     std::size_t gone = 0;
     for (std::uint32_t f = 0; f < faces_of_input; ++f)
       if (marks[f]) removal.area_cut += area_of(mesh, f), ++gone;
@@ -101,7 +128,7 @@ IntersectionRemoval remove_intersections(SurfaceMesh& mesh, RepairResult& result
     result.faces_removed += of_the_cut.faces_removed;
     const std::size_t kept = mesh.triangles.size();
     for (const BorderLoop& loop : find_border_loops(mesh, twins))
-      append_patch(mesh, make_patch(mesh, twins, loop, rounds[i].shape));
+      if (!borders.share_an_edge(mesh, loop)) append_patch(mesh, make_patch(mesh, twins, loop, rounds[i].shape));
     result.faces_added += mesh.triangles.size() - kept;
 
     std::vector<std::uint32_t> patches(mesh.triangles.size() - kept);

@@ -43,13 +43,14 @@ void drop_specks(SurfaceMesh& mesh, const RepairOptions& options, RepairResult& 
   drop_shells(mesh, shells, marks, RepairKind::DroppedSpeck, result);
 }
 
-// Shells that bound nothing: dropped where small, an error where they are what there is.
+// Shells that bound nothing: dropped where small, an error where they are what there is. Those that are to stay open
+// bound nothing anyway.
 void drop_flat_shells(SurfaceMesh& mesh, const RepairOptions& options, RepairResult& result) {
-  const std::vector<Shell> shells = find_shells(mesh);
+  const std::vector<Shell> shells = find_shells(mesh, options.holes == Holes::keep);
   const double total_area = surface_area(mesh);
   std::vector<char> marks;
   for (const Shell& shell : shells) {
-    marks.push_back(std::abs(shell.volume) <= least_volume_of_area * std::pow(shell.area, 1.5));
+    marks.push_back(!shell.open && std::abs(shell.volume) <= least_volume_of_area * std::pow(shell.area, 1.5));
     if (marks.back() && shell.area >= options.fragment_of_area * total_area)
       throw NotMeshable({.what = "the surface is flat: it encloses no volume",
                          .where = error_text((shell.box.low + shell.box.high) / 2),
@@ -76,6 +77,7 @@ void drop_flat_shells(SurfaceMesh& mesh, const RepairOptions& options, RepairRes
 
 RepairResult repair(SurfaceMesh& mesh, const RepairOptions& options, const Progress& progress) {
   RepairResult result;
+  const bool keep_holes = options.holes == Holes::keep;
   check_input(mesh);
   progress("repair", 0);
   for (const Vec3& p : drop_unused_vertices(mesh)) result.changes.push_back({RepairKind::UnusedVertex, p, 0});
@@ -86,13 +88,13 @@ RepairResult repair(SurfaceMesh& mesh, const RepairOptions& options, const Progr
     make_manifold(mesh, result);
   }
   drop_specks(mesh, options, result);
-  if (!sound) {
+  if (!sound && !keep_holes) {
     close_holes(mesh, {options.largest_hole_of_diagonal, options.fragment_of_area}, result, progress);
     make_manifold(mesh, result);
   }
   mend_degenerate_faces(mesh, result);
   drop_flat_shells(mesh, options, result);
-  orient_shells(mesh, result);
+  orient_shells(mesh, keep_holes, result);
   progress("repair", 0.3);
 
   const double area = surface_area(mesh);
@@ -101,7 +103,7 @@ RepairResult repair(SurfaceMesh& mesh, const RepairOptions& options, const Progr
     fail_of_intersections(result, removal.area_cut / area);
   if (result.count(RepairKind::Intersection) > 0) {
     drop_flat_shells(mesh, options, result);
-    drop_shells_inside(mesh, result);
+    drop_shells_inside(mesh, keep_holes, result);
   }
   drop_unused_vertices(mesh);
   progress("repair", 1);

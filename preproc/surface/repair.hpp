@@ -1,5 +1,6 @@
-// Makes of a freshly read scan the surface that every later stage presumes: closed, edge- and vertex-manifold, oriented
-// outwards, free of self-intersections, of one or several components, and enclosing a volume.
+// Makes of a freshly read scan the surface that every later stage presumes: closed (unless its holes are to stay),
+// edge- and vertex-manifold, oriented outwards, free of self-intersections, of one or several components, and enclosing
+// a volume.
 #pragma once
 
 #include "preproc/mesh/progress.hpp"
@@ -10,7 +11,12 @@
 
 namespace scan2fea {
 
+// What becomes of the holes of a scan: a volume needs a closed surface; shells and parts of parts may be open.
+enum class Holes { close, keep };
+
 struct RepairOptions {
+  Holes holes = Holes::close;
+
   // Holes whose border's bounding box has a diagonal up to this fraction of its component's are closed; a larger one is
   // an error, since a patch over it would be invented rather than interpolated. Unset: all are closed. [0, 1].
   // 0.35: the base of a statue that a scanner could not see is about that, the mouth of a vase or an open sheet above.
@@ -46,12 +52,18 @@ struct RepairOptions {
 // edges, folds smoothed within an edge's length; what still crosses is cut out with a ring of neighbours and filled, in
 // rounds of growing rings. Pieces that this leaves inside a solid are dropped.
 //
+// With `Holes::keep` the third step mends faces only, open components count as fragments no more, need enclose nothing,
+// and keep the orientation that most of their faces had unless they are so nearly closed that outwards means something;
+// and of a surface with holes solids that overlap are cut like all else. Where what is cut reaches a border, the border
+// draws back.
+//
 // Vertices that no change needs keep their coordinates bit by bit and their order; so do faces, but for those of united
 // solids, which come last. A sound input is returned as it was. The same input gives the same output for any number of
 // threads.
 //
 // Throws InvalidInput: indices out of range, coordinates that are not finite, no faces. NotMeshable, naming the place,
-// the value and the limit: a hole too large to close; no volume (below 1e-6 of area^1.5); intersections that remain, or
+// the value and the limit: a hole too large to close; no volume (below 1e-6 of area^1.5) where nothing is open;
+// intersections that remain, or
 // that only cutting out more than a third of the surface would remove. The mesh is then in an unspecified state.
 //
 // A sound surface costs a check of its connectivity and one search for intersections, O(n log n). A hole of b border

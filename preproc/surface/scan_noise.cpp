@@ -6,14 +6,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
 #include <vector>
 
 namespace scan2fea {
 namespace {
 
-constexpr std::size_t sampled_vertices = 500;  // the median of so many is within about 6 %
+constexpr std::size_t sampled = 500;  // the median of so many is within about 6 %
 // A normal that is further from the vertex's own tells of a crease, or of facets that no quadric follows: 30°.
 constexpr double crease_cosine = 0.866;
 
@@ -56,73 +55,68 @@ bool near_crease(const SurfaceMesh& scan, const VertexStars& stars, std::uint32_
   return false;
 }
 
-// Adds `factor` times the weights whose products with the vertices sum up to a vertex's height over the quadric through
-// its two rings; false where the quadric is not determined.
-bool add_residual(const SurfaceMesh& scan, const VertexStars& stars, std::uint32_t v, double factor,
-                  std::map<std::uint32_t, Vec3>& weights) {
+// A vertex's height over the quadric through its two rings, in standard deviations of a single vertex. Nothing where
+// the quadric is not determined, or leaves the vertex no freedom.
+std::optional<double> quadric_residual(const SurfaceMesh& scan, const VertexStars& stars, std::uint32_t v) {
   using Row = Eigen::Matrix<double, 6, 1>;
   using Square = Eigen::Matrix<double, 6, 6>;
   const std::vector<std::uint32_t> points = two_rings(scan, stars, v);
   const Vec3 normal = normal_at(scan, stars, v);
-  if (points.size() < 9 || normal.isZero()) return false;
+  if (points.size() < 9 || normal.isZero()) return {};
   const TangentFrame frame(normal);
   double radius = 0;
   for (const std::uint32_t p : points) radius = std::max(radius, (scan.vertices[p] - scan.vertices[v]).norm());
-  if (radius == 0) return false;
-  std::vector<Row> rows;
+  if (radius == 0) return {};
   Square a = Square::Zero();
+  Row b = Row::Zero();
   for (const std::uint32_t p : points) {
     const Vec3 d = scan.vertices[p] - scan.vertices[v];
     const double x = d.dot(frame.x) / radius, y = d.dot(frame.y) / radius;
-    rows.push_back(Row{1, x, y, x * x, x * y, y * y});
-    a += rows.back() * rows.back().transpose();
+    const Row row{1, x, y, x * x, x * y, y * y};
+    a += row * row.transpose();
+    b += row * d.dot(normal);
   }
   const Eigen::LDLT<Square> solver(a);
-  if (solver.rcond() < 1e-9) return false;
+  if (solver.rcond() < 1e-9) return {};
   Row at_vertex = Row::Zero();
   at_vertex[0] = 1;
-  const Row fit = solver.solve(at_vertex);
-  const auto add = [&](std::uint32_t p, double weight) {
-    weights.try_emplace(p, Vec3::Zero()).first->second += factor * weight * normal;
-  };
-  add(v, 1);
-  for (std::size_t i = 0; i < points.size(); ++i) add(points[i], -rows[i].dot(fit));
-  return true;
+  const double freedom = 1 - solver.solve(at_vertex)[0];  // variance of the residual over that of a vertex
+  return freedom > 0.05 ? std::optional(solver.solve(b)[0] / std::sqrt(freedom)) : std::nullopt;
 }
 
-// A vertex's height over its quadric, in standard deviations of a single vertex, or what it differs from its
-// neighbours', which is noise even where a quadric misses the shape, since it misses much the same for all. Nothing
-// where it is not determined.
-std::optional<double> residual(const SurfaceMesh& scan, const VertexStars& stars, std::uint32_t v,
-                               bool less_neighbours) {
-  std::map<std::uint32_t, Vec3> weights;
-  if (!add_residual(scan, stars, v, 1, weights)) return {};
-  if (less_neighbours) {
-    std::vector<std::uint32_t> ring;
-    for (const std::uint32_t c : stars.corners(v))
-      for (const std::uint32_t w : scan.triangles[c / 3])
-        if (w != v) ring.push_back(w);
-    std::sort(ring.begin(), ring.end());
-    ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
-    for (const std::uint32_t w : ring)
-      if (!add_residual(scan, stars, w, -1.0 / static_cast<double>(ring.size()), weights)) return {};
-  }
-  double height = 0, squares = 0;
-  for (const auto& [p, weight] : weights) {
-    height += weight.dot(scan.vertices[p] - scan.vertices[v]);
-    squares += weight.squaredNorm();
-  }
-  return squares > 0.05 ? std::optional(height / std::sqrt(squares)) : std::nullopt;
-}
-
-// The sizes of the residuals of a sample of vertices.
-std::vector<double> residuals(const SurfaceMesh& scan, const VertexStars& stars, bool near_creases) {
-  const std::size_t n = stars.vertex_count();
+// The sizes of the residuals from quadrics of a sample of vertices, those near creases aside, in standard deviations of
+// a single vertex.
+std::vector<double> quadric_residuals(const SurfaceMesh& scan, const VertexStars& stars) {
   std::vector<double> result;
-  for (std::size_t v = 0; v < n; v += std::max<std::size_t>(1, n / sampled_vertices)) {
-    const auto vertex = static_cast<std::uint32_t>(v);
-    if (has_wide_fan(scan, stars, vertex) || (!near_creases && near_crease(scan, stars, vertex))) continue;
-    if (const auto r = residual(scan, stars, vertex, near_creases)) result.push_back(std::abs(*r));
+  const std::size_t n = stars.vertex_count();
+  for (std::size_t i = 0; i < n; i += std::max<std::size_t>(1, n / sampled)) {
+    const auto v = static_cast<std::uint32_t>(i);
+    if (has_wide_fan(scan, stars, v) || near_crease(scan, stars, v)) continue;
+    if (const auto r = quadric_residual(scan, stars, v)) result.push_back(std::abs(*r));
+  }
+  return result;
+}
+
+// The heights of corners over the planes of faces that they are not of but whose edge they see, likewise.
+std::vector<double> heights_over_neighbours(const SurfaceMesh& scan, const VertexStars& stars) {
+  const std::vector<Triangle> neighbours = face_neighbours(scan, stars);
+  std::vector<double> result;
+  const std::size_t n = scan.triangles.size();
+  for (std::size_t f = 0; f < n; f += std::max<std::size_t>(1, n / sampled)) {
+    const Vec3 area = area_vector(scan, scan.triangles[f]);
+    for (const std::uint32_t g : neighbours[f]) {
+      if (g == no_face || area.norm() == 0) continue;
+      for (const std::uint32_t v : scan.triangles[g]) {
+        const Triangle& t = scan.triangles[f];
+        if (v == t[0] || v == t[1] || v == t[2]) continue;
+        // Its weights on the four corners, and so its deviation: the corner's place in barycentric coordinates.
+        const Vec3 d = scan.vertices[v] - scan.vertices[t[0]];
+        const Vec3 u = scan.vertices[t[1]] - scan.vertices[t[0]], w = scan.vertices[t[2]] - scan.vertices[t[0]];
+        const double b = d.cross(w).dot(area) / area.squaredNorm(), c = u.cross(d).dot(area) / area.squaredNorm();
+        const double a = 1 - b - c;
+        result.push_back(std::abs(d.dot(area.normalized())) / std::sqrt(1 + a * a + b * b + c * c));
+      }
+    }
   }
   return result;
 }
@@ -138,11 +132,12 @@ double quantile(std::vector<double>& values, double share) {
 double estimate_noise(const SurfaceMesh& scan, const VertexStars& stars) {
   // The median and the first decile of a normal distribution's absolute value, in standard deviations.
   constexpr double median = 0.6745, first_decile = 0.1257;
-  std::vector<double> heights = residuals(scan, stars, false);
-  if (heights.size() >= std::min(stars.vertex_count(), sampled_vertices) / 20 && !heights.empty())
+  std::vector<double> heights = quadric_residuals(scan, stars);
+  if (heights.size() >= std::min(stars.vertex_count(), sampled) / 20 && !heights.empty())
     return quantile(heights, 0.5) / median;
-  // Creases, or noise that looks like them, are everywhere: judge by the least of what is there.
-  heights = residuals(scan, stars, true);
+  // Creases, or noise that looks like them, are everywhere: judge by the flattest of pairs of faces, of which a part
+  // made of facets has many.
+  heights = heights_over_neighbours(scan, stars);
   return heights.empty() ? 0 : quantile(heights, 0.1) / first_decile;
 }
 

@@ -1,6 +1,7 @@
 #include "preproc/surface/shells.hpp"
 
 #include "preproc/surface/components.hpp"
+#include "preproc/surface/soup_adjacency.hpp"
 #include "preproc/surface/soup_cleaning.hpp"
 
 #include <algorithm>
@@ -41,6 +42,17 @@ Enclosure enclosure(const SurfaceMesh& mesh, const Shell& inner, const Shell& ou
   return {inside == count, 2 * inside > count};
 }
 
+// Whether a shell is closed but for holes that have little area beside it, so that its volume has a meaningful sign:
+// the area vectors of a closed surface cancel. A tube is, a hemisphere or a dented sheet is not.
+bool nearly_encloses(const SurfaceMesh& mesh, const Shell& shell) {
+  constexpr double most_open_area = 0.25, least_volume_of_area = 1e-3;
+  if (!shell.open) return true;
+  Vec3 sum = Vec3::Zero();
+  for (const std::uint32_t f : shell.faces) sum += area_vector(mesh, mesh.triangles[f]) / 2;
+  return sum.norm() < most_open_area * shell.area &&
+         std::abs(shell.volume) > least_volume_of_area * std::pow(shell.area, 1.5);
+}
+
 void turn(SurfaceMesh& mesh, const Shell& shell, RepairResult& result) {
   for (const std::uint32_t f : shell.faces) std::swap(mesh.triangles[f][1], mesh.triangles[f][2]);
   result.changes.push_back({RepairKind::TurnedFaces, centre_of(mesh, shell.faces[0]), shell.area});
@@ -48,8 +60,9 @@ void turn(SurfaceMesh& mesh, const Shell& shell, RepairResult& result) {
 
 }  // namespace
 
-std::vector<Shell> find_shells(const SurfaceMesh& mesh) {
+std::vector<Shell> find_shells(const SurfaceMesh& mesh, bool tell_open) {
   const Components components = find_components(mesh);
+  const Twins twins = tell_open ? find_twins(mesh) : Twins();
   std::vector<Shell> shells;
   std::vector<std::uint32_t> shell_of(components.count, components.count);
   for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
@@ -57,10 +70,12 @@ std::vector<Shell> find_shells(const SurfaceMesh& mesh) {
     std::uint32_t& s = shell_of[components.of_vertex[t[0]]];
     if (s == components.count) {
       s = static_cast<std::uint32_t>(shells.size());
-      shells.push_back({{}, {mesh.vertices[t[0]], mesh.vertices[t[0]]}, 0, 0});
+      shells.push_back({.faces = {}, .box = {mesh.vertices[t[0]], mesh.vertices[t[0]]}});
     }
     Shell& shell = shells[s];
     shell.faces.push_back(f);
+    if (tell_open)
+      for (std::uint32_t h = 3 * f; h < 3 * f + 3; ++h) shell.open |= twins[h] == no_twin;
     for (const std::uint32_t v : t) {
       shell.box.low = shell.box.low.cwiseMin(mesh.vertices[v]);
       shell.box.high = shell.box.high.cwiseMax(mesh.vertices[v]);
@@ -88,12 +103,13 @@ void drop_shells(SurfaceMesh& mesh, const std::vector<Shell>& shells, const std:
   remove_faces(mesh, of_face, result);
 }
 
-void orient_shells(SurfaceMesh& mesh, RepairResult& result) {
-  const std::vector<Shell> shells = find_shells(mesh);
+void orient_shells(SurfaceMesh& mesh, bool may_be_open, RepairResult& result) {
+  const std::vector<Shell> shells = find_shells(mesh, may_be_open);
   for (const Shell& shell : shells) {
+    if (!nearly_encloses(mesh, shell)) continue;
     std::size_t depth = 0;
     for (const Shell& other : shells) {
-      if (&other == &shell || !contains(other.box, shell.box)) continue;
+      if (&other == &shell || other.open || !contains(other.box, shell.box)) continue;
       if (std::abs(other.volume) <= std::abs(shell.volume)) continue;
       const Enclosure enclosed = enclosure(mesh, shell, other);
       depth += enclosed.all || (enclosed.most && shell.volume < 0);
@@ -103,15 +119,16 @@ void orient_shells(SurfaceMesh& mesh, RepairResult& result) {
   }
 }
 
-void drop_shells_inside(SurfaceMesh& mesh, RepairResult& result) {
-  const std::vector<Shell> shells = find_shells(mesh);
+void drop_shells_inside(SurfaceMesh& mesh, bool may_be_open, RepairResult& result) {
+  const std::vector<Shell> shells = find_shells(mesh, may_be_open);
   std::vector<char> marks(shells.size(), 0);
   for (std::size_t s = 0; s < shells.size(); ++s) {
     const Shell& shell = shells[s];
+    if (shell.open) continue;
     double winding = 0;
     const Vec3& p = mesh.vertices[mesh.triangles[shell.faces[0]][0]];
     for (const Shell& other : shells)
-      if (&other != &shell && contains(other.box, shell.box)) winding += winding_number(mesh, other, p);
+      if (&other != &shell && !other.open && contains(other.box, shell.box)) winding += winding_number(mesh, other, p);
     const bool in_solid = winding > 0.5;
     marks[s] = in_solid == (shell.volume > 0);
   }

@@ -13,6 +13,7 @@ struct PeerJob {
 };
 
 void cgal_isotropic_remeshing(const PeerJob& job);  // 10 iterations
+void cgal_feature_remeshing(const PeerJob& job);    // the same, edges of 40 degrees and borders split and protected
 void cgal_garland_heckbert(const PeerJob& job);
 void cgal_lindstrom_turk(const PeerJob& job);
 void openmesh_quadric(const PeerJob& job);

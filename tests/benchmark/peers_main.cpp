@@ -10,9 +10,10 @@
 int main(int argc, char** argv) {
   using namespace scan2fea::benchmark;
   const std::map<std::string, std::function<void(const PeerJob&)>> peers{
-      {"cgal-isotropic", cgal_isotropic_remeshing},   {"cgal-quadric", cgal_garland_heckbert},
-      {"cgal-lindstrom-turk", cgal_lindstrom_turk},   {"openmesh-quadric", openmesh_quadric},
-      {"openmesh-progressive", openmesh_progressive}, {"meshoptimizer", meshoptimizer_simplify}};
+      {"cgal-isotropic", cgal_isotropic_remeshing}, {"cgal-features", cgal_feature_remeshing},
+      {"cgal-quadric", cgal_garland_heckbert},      {"cgal-lindstrom-turk", cgal_lindstrom_turk},
+      {"openmesh-quadric", openmesh_quadric},       {"openmesh-progressive", openmesh_progressive},
+      {"meshoptimizer", meshoptimizer_simplify}};
   if (argc != 6 || peers.count(argv[1]) == 0) {
     std::fprintf(stderr, "usage: benchmark_peers PEER INPUT OUTPUT FACES EDGE_LENGTH; PEER is one of:");
     for (const auto& peer : peers) std::fprintf(stderr, " %s", peer.first.c_str());

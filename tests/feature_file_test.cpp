@@ -1,0 +1,93 @@
+#include "preproc/surface/feature_file.hpp"
+
+#include "preproc/mesh/error.hpp"
+#include "preproc/surface/match_features.hpp"
+#include "tests/analytic_meshes.hpp"
+#include "tests/temporary_folder.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace scan2fea {
+namespace {
+
+using ::testing::HasSubstr;
+
+template <class Work>
+std::string message_of(Work work) {
+  try {
+    work();
+  } catch (const InvalidInput& error) {
+    return error.what();
+  }
+  ADD_FAILURE() << "expected InvalidInput";
+  return {};
+}
+
+TEST(FeatureFile, EdgesOfAScanComeBackAsThemselves) {
+  const TemporaryFolder folder;
+  SurfaceMesh scan = analytic::slab_with_holes(2, 0.25);
+  for (Vec3& v : scan.vertices) v = v / 3 + Vec3(0.1, 1e6, -1e-7);
+  const std::vector<FeatureEdge> edges = find_features(scan).edges;
+  write_feature_lines(lines_of(scan, edges), folder / "edges.obj");
+  EXPECT_EQ(match_features(scan, read_feature_lines(folder / "edges.obj")), edges);
+}
+
+TEST(FeatureFile, PolylinesAndRelativeIndicesAreRead) {
+  const TemporaryFolder folder;
+  const auto file =
+      folder.file("drawn.obj", "# drawn\no rim\nv 0 0 0\nv 1 0 0\nv 1 1 0\nl 1 2/1 3\nl -1 -3\nv 9 9 9\nf 1 2 3\n");
+  const FeatureLines lines = read_feature_lines(file);
+  EXPECT_EQ(lines.points.size(), 4U);
+  using Segments = decltype(lines.segments);
+  EXPECT_EQ(lines.segments, (Segments{{0, 1}, {1, 2}, {2, 0}}));
+}
+
+TEST(FeatureFile, NoLinesAreNoFeatures) {
+  const TemporaryFolder folder;
+  write_feature_lines({}, folder / "none.obj");
+  EXPECT_TRUE(read_feature_lines(folder / "none.obj").segments.empty());
+  EXPECT_TRUE(match_features(analytic::sphere(1, 2), {}).empty());
+}
+
+TEST(FeatureFile, BrokenLinesAreNamed) {
+  const TemporaryFolder folder;
+  const auto read = [&](const char* text) {
+    return message_of([&] { read_feature_lines(folder.file("bad.obj", text)); });
+  };
+  EXPECT_THAT(read("v 0 0 0\nv 1 0 0\nl 1 3\n"), HasSubstr("bad.obj:3"));
+  EXPECT_THAT(read("v 0 0 0\nv 1 0 0\nl 1\n"), HasSubstr("too few points"));
+  EXPECT_THAT(read("v 0 0\n"), HasSubstr("bad.obj:1"));
+}
+
+TEST(MatchFeatures, ALongLineIsFollowedAlongItsEdge) {
+  const SurfaceMesh box = analytic::box({4, 3, 2}, 0.25);
+  const std::vector<FeatureEdge> edges = match_features(box, {{Vec3(0, 0.001, 0), Vec3(4, 0, -0.001)}, {{0, 1}}});
+  EXPECT_EQ(edges.size(), 16U);
+  for (const FeatureEdge& e : edges)
+    for (const std::uint32_t v : e) EXPECT_EQ(box.vertices[v].tail<2>(), Eigen::Vector2d(0, 0));
+}
+
+TEST(MatchFeatures, ALineBesideTheScanIsAnError) {
+  const SurfaceMesh box = analytic::box({4, 3, 2}, 0.25);
+  EXPECT_THAT(message_of([&] {
+                match_features(box, {{Vec3(0, 0, 0), Vec3(4, 0, 0.1)}, {{0, 1}}});
+              }),
+              HasSubstr("(4, 0, 0.1)"));
+  // Both ends are corners, but the way between them is the box's inside.
+  EXPECT_THAT(message_of([&] {
+                match_features(box, {{Vec3(0, 0, 0), Vec3(4, 3, 2)}, {{0, 1}}});
+              }),
+              HasSubstr("(2, 1.5, 1)"));
+}
+
+TEST(MatchFeatures, BordersAreKeptAnyway) {
+  const SurfaceMesh sheet = analytic::sheet(4, 3, 0.5);
+  const std::vector<FeatureEdge> edges =
+      match_features(sheet, {{Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 1, 0), Vec3(4, 1, 0)}, {{0, 1}, {2, 3}}});
+  EXPECT_EQ(edges.size(), 8U);
+  for (const FeatureEdge& e : edges) EXPECT_EQ(sheet.vertices[e[0]][1], 1);
+}
+
+}  // namespace
+}  // namespace scan2fea
