@@ -3,6 +3,7 @@
 // of entropy and fit.
 #pragma once
 
+#include "preproc/mesh/effort.hpp"
 #include "preproc/mesh/progress.hpp"
 #include "preproc/mesh/surface_mesh.hpp"
 #include "preproc/surface/collapse.hpp"
@@ -35,9 +36,6 @@ enum class SimplifyMethod {
   collapse,  // the paper's: contractions predicted by a cost, vertices placed by a star objective
   lattice,   // fields on the scan, extraction, then entropy and fit optimised together
 };
-
-// What to spend time on: `low` for previews and sweeps of parameters, `high` for fidelity.
-enum class Effort { low, normal, high };
 
 struct SimplifyOptions {
   SimplifyMethod method = SimplifyMethod::lattice;
