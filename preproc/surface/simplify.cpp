@@ -101,10 +101,7 @@ void finish(Candidate& candidate, const ReferenceSurface& scan, const Progress& 
     guard.least_angle_deg = least_angle_deg;
     const GuardResult guarded = guard_surface(candidate.mesh, scan, guard, progress);
     candidate.crossings_mended = guarded.before.crossings.size();
-    if (guarded.clean())
-      open_wedges(candidate.mesh, scan);
-    else
-      candidate.failure = describe(guarded.after);
+    if (!guarded.clean()) candidate.failure = describe(guarded.after);
   } catch (const NotMeshable& e) {
     candidate.failure = e.parts().what;
   }
@@ -294,6 +291,15 @@ SurfaceMesh make_surface_within(Scan& scan, const LargestDeviation& wanted, cons
                            shortest_edge * wanted.distance);
     }
   }
+  // The deviation that was asked for comes before the tetrahedra.
+  SurfaceMesh opened = best;
+  if (options.method == SimplifyMethod::lattice && open_wedges(opened, scan.reference()).opened()) {
+    const double reached = bound_deviation(opened, scan.mesh, {.limit = wanted.distance}).upper();
+    if (!wanted.required || reached <= wanted.distance) {
+      best = std::move(opened);
+      best_result.largest_deviation = reached;
+    }
+  }
   if (wanted.required && best_result.largest_deviation > wanted.distance)
     throw NotMeshable({.what = "the deviation was not reached",
                        .where = {},
@@ -343,6 +349,7 @@ SimplifyResult simplify(const SurfaceMesh& mesh, SurfaceMesh& surface, const Sim
     if (result.method == SimplifyMethod::lattice)
       lower_worst(candidate, scan, plan_of(options.effort).rounds_for_worst, result, progress);
     surface = std::move(candidate.mesh);
+    if (options.method == SimplifyMethod::lattice) open_wedges(surface, scan.reference());
   }
   return result;
 }
