@@ -90,7 +90,7 @@ void describe(const SimplifyResult& result, const TargetSize& size, StageRecord&
                     {"crossings_mended", static_cast<double>(result.crossings_mended)}};
   if (result.feature_edges > 0) {
     record.changes.emplace_back("feature_edges_before", static_cast<double>(result.feature_edges));
-    record.changes.emplace_back("feature_edges_after", static_cast<double>(result.result_features.size()));
+    record.changes.emplace_back("feature_edges_after", static_cast<double>(result.feature_edges_kept));
   }
   if (!result.feature_remark.empty()) record.remarks.push_back(result.feature_remark);
   if (result.largest_deviation > 0) record.changes.emplace_back("largest_deviation", result.largest_deviation);

@@ -217,9 +217,20 @@ void add_simplify_flags(CLI::App& command, SimplifyOptions& options) {
           },
           "Edges whose faces' normals differ by more are kept, degrees (40); off for organic scans")
       ->type_name("DEG|off");
-  add_choice<Effort>(command, "--effort", options.effort,
-                     {{"low", Effort::low}, {"normal", Effort::normal}, {"high", Effort::high}},
-                     "Time spent on shape and fidelity; normal is the default");
+}
+
+void add_effort_flag(CLI::App& command, PipelineOptions& options) {
+  const Choices<Effort> efforts{{"low", Effort::low}, {"normal", Effort::normal}, {"high", Effort::high}};
+  command
+      .add_option_function<Effort>(
+          "--effort",
+          [&options](Effort effort) {
+            if (options.simplify) options.simplify->effort = effort;
+            if (options.tetrahedralize) options.tetrahedralize->optimise = optimise_options(effort);
+          },
+          "Time spent on shape and fidelity; normal is the default (low, normal, high)")
+      ->transform(CLI::CheckedTransformer(efforts))
+      ->type_name("NAME");
 }
 
 void add_tetrahedralize_flags(CLI::App& command, TetrahedralizeOptions& options, int& order) {

@@ -60,6 +60,8 @@ void add_size_flags(CLI::App& command, SizeFlags& flags);
 void add_repair_flags(CLI::App& command, RepairOptions& options);
 void add_enrich_flags(CLI::App& command, EnrichOptions& options);
 void add_simplify_flags(CLI::App& command, SimplifyOptions& options);
+// For the stages that `options` has by then.
+void add_effort_flag(CLI::App& command, PipelineOptions& options);
 void add_tetrahedralize_flags(CLI::App& command, TetrahedralizeOptions& options, int& order);
 void add_msh_version_flag(CLI::App& command, MshVersion& version);
 

@@ -54,6 +54,7 @@ void add_surface_flags(CLI::App& command, MakeMeshJob& job) {
   command.add_flag("--enrich", job.enrich, "First add points where the scanner left too few (see scan2fea enrich)");
   add_enrich_flags(command, job.enrich_options);
   add_simplify_flags(command, *job.pipeline.simplify);
+  add_effort_flag(command, job.pipeline);
 }
 
 int make_mesh(MakeMeshJob job) {

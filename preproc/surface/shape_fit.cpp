@@ -233,7 +233,7 @@ class Fitter {
   void start_locations() {
     const std::vector<std::uint32_t> nearest =
         options_.nearest_vertex_of_scan_vertex ? *options_.nearest_vertex_of_scan_vertex
-        : scan_.patch_of_vertex.empty()
+        : patch_of_vertex_.empty()
             ? nearest_vertices(scan_.mesh.vertices, scan_.vertex_normals, mesh_, mean_edge_)
             : nearest_vertices_of_patch(scan_.mesh.vertices, scan_.vertex_normals, scan_.patch_of_vertex, mesh_,
                                         patch_of_vertex_, mean_edge_);

@@ -3,10 +3,12 @@
 #include "preproc/mesh/error.hpp"
 #include "preproc/surface/clear_moves.hpp"
 #include "preproc/surface/error_sizing.hpp"
+#include "preproc/surface/feature_selection.hpp"
 #include "preproc/surface/guard.hpp"
 #include "preproc/surface/lattice.hpp"
 #include "preproc/surface/local_deviation.hpp"
 #include "preproc/surface/local_refinement.hpp"
+#include "preproc/surface/match_features.hpp"
 #include "preproc/surface/preserve_volume.hpp"
 #include "preproc/surface/reference_surface.hpp"
 #include "preproc/surface/refined_scan.hpp"
@@ -28,6 +30,9 @@ constexpr double equilateral_area = 0.43301270189221932;  // of a triangle with 
 constexpr double fewest_faces = 4;
 // Over the wanted edge length.
 constexpr double longest_edge_to_contract = 1;
+
+// Edge length of the first surface within a deviation, over the deviation.
+constexpr double first_edge = 12;
 
 // Most fits reach it without the guard.
 constexpr double least_angle_deg = 38.5;
@@ -79,27 +84,33 @@ FitPlan plan_of(Effort effort) {
 class Scan {
  public:
   // `sharp`: its creases.
-  explicit Scan(const SurfaceMesh& surface, std::vector<FeatureEdge> sharp = {}, double tolerance_of_curves = 0)
-      : mesh(surface), features_(surface, std::move(sharp), tolerance_of_curves) {}
+  Scan(const SurfaceMesh& surface, std::vector<FeatureEdge> sharp, double tolerance_of_curves)
+      : mesh(surface), features_(std::in_place, surface, std::move(sharp), tolerance_of_curves) {}
 
   const ReferenceSurface& reference() {
     if (!reference_) {
       if (has_features())
-        reference_.emplace(features_);
+        reference_.emplace(*features_);
       else
         reference_.emplace(mesh);
     }
     return *reference_;
   }
-  const FeatureScan& features() const { return features_; }
-  bool has_features() const { return !features_.empty(); }  // creases or borders
-  bool is_closed() const { return features_.border.empty(); }
-  Scan without_features() const { return Scan(mesh); }
+  const FeatureScan& features() const { return *features_; }
+  bool has_features() const { return !features_->empty(); }  // creases or borders
+  bool has_creases() const { return !features_->sharp.empty(); }
+  bool is_closed() const { return features_->border.empty(); }
+
+  // From here on there are none.
+  void drop_creases() {
+    reference_.reset();
+    features_.emplace(mesh, std::vector<FeatureEdge>{}, features_->curve_tolerance);
+  }
 
   // What the reference's vertices have, by vertex of the scan: of the copies at a crease, the one that `wins`.
   template <class Wins>
   std::vector<double> by_vertex(std::vector<double> of_reference, const Wins& wins) const {
-    const std::vector<std::uint32_t>& vertex = features_.cut.vertex_of_copy;
+    const std::vector<std::uint32_t>& vertex = features_->cut.vertex_of_copy;
     for (std::size_t c = mesh.vertices.size(); c < of_reference.size(); ++c)
       of_reference[vertex[c]] = wins(of_reference[vertex[c]], of_reference[c]);
     of_reference.resize(mesh.vertices.size());
@@ -109,7 +120,7 @@ class Scan {
   const SurfaceMesh& mesh;
 
  private:
-  FeatureScan features_;
+  std::optional<FeatureScan> features_;
   std::optional<ReferenceSurface> reference_;
 };
 
@@ -134,12 +145,7 @@ void finish(Candidate& candidate, Scan& scan, const Progress& progress) {
     guard.keep_volume = scan.is_closed();
     const GuardResult guarded = guard_surface(candidate.mesh, candidate.net, scan.reference(), guard, progress);
     candidate.crossings_mended = guarded.before.crossings.size();
-    if (guarded.clean())
-      open_wedges(
-          candidate.mesh, scan.reference(),
-          {.keep_volume = scan.is_closed(), .constraints = held_lines(candidate.net, candidate.mesh.vertices.size())});
-    else
-      candidate.failure = describe(guarded.after);
+    if (!guarded.clean()) candidate.failure = describe(guarded.after);
   } catch (const NotMeshable& e) {
     candidate.failure = e.parts().what;
   }
@@ -217,6 +223,11 @@ Candidate by_contraction(Scan& scan, const SizingOptions& sizing, const Progress
   Candidate fitted = contracted;
   ShapeFitOptions fit;
   fit.rounds = 12;
+  if (!scan.is_closed()) {
+    fit.constraints.resize(fitted.mesh.vertices.size(), VertexConstraint::free);
+    for (const auto& [a, b] : boundary_edges(fitted.mesh))
+      fit.constraints[a] = fit.constraints[b] = VertexConstraint::fixed;
+  }
   optimise_shape_and_fit(fitted.mesh, scan.reference(), fit, progress);
   const std::vector<Vec3> targets = fitted.mesh.vertices;
   finish(fitted, scan, progress);
@@ -244,23 +255,26 @@ Candidate by_collapse(Scan& scan, double faces, const SimplifyOptions& options, 
   return candidate;
 }
 
-// The lattice with its features; where triangles of the wanted size are too large for them, with smaller ones.
-Candidate by_lattice_with_features(Scan& scan, SizingOptions sizing, Effort effort, SimplifyResult& result,
-                                   const Progress& progress) {
-  constexpr int most_trials = 3;
-  constexpr double growth = 1.5;  // of the number of triangles
+// The lattice with the creases; where triangles of the wanted size are too large for them, with smaller ones, or
+// without creases.
+Candidate by_lattice_with_creases(Scan& scan, SizingOptions sizing, Effort effort, SimplifyResult& result,
+                                  const Progress& progress) {
+  constexpr int most_trials = 2;
+  constexpr double growth = 1.6;  // of the number of triangles
   const double wanted = sizing.triangles;
-  Candidate candidate;
   for (int trial = 0; trial < most_trials; ++trial, sizing.triangles *= growth) {
-    candidate = best_by_lattice(scan, sizing, effort, progress);
-    if (candidate.failure.empty()) break;
+    Candidate candidate = best_by_lattice(scan, sizing, effort, progress);
+    if (!candidate.failure.empty()) continue;
+    if (static_cast<double>(candidate.mesh.triangles.size()) > 1.005 * wanted + 1)
+      result.feature_remark = "triangles of the wanted size are too large for the creases: made " +
+                              std::to_string(candidate.mesh.triangles.size()) + " instead of " +
+                              std::to_string(std::lround(wanted));
+    return candidate;
   }
-  const auto triangles = static_cast<double>(candidate.mesh.triangles.size());
-  if (candidate.failure.empty() && triangles > 1.005 * wanted + 1)
-    result.feature_remark = "triangles of the wanted size are too large for the features: made " +
-                            std::to_string(candidate.mesh.triangles.size()) + " instead of " +
-                            std::to_string(std::lround(wanted));
-  return candidate;
+  result.feature_remark = "triangles of the wanted size are too large for the creases: none is kept";
+  scan.drop_creases();
+  sizing.triangles = wanted;
+  return best_by_lattice(scan, sizing, effort, progress);
 }
 
 // One surface of the sizes asked for, by the method asked for or, where the lattice fails, by contraction.
@@ -268,18 +282,14 @@ Candidate make_surface(Scan& scan, const SizingOptions& sizing, const SimplifyOp
                        SimplifyResult& result, const Progress& progress) {
   result.method = options.method;
   result.fallback_reason.clear();
-  result.feature_remark.clear();
   Candidate candidate = options.method == SimplifyMethod::collapse
                             ? by_collapse(scan, sizing.triangles, options, progress)
-                        : scan.has_features() ? by_lattice_with_features(scan, sizing, effort, result, progress)
-                                              : best_by_lattice(scan, sizing, effort, progress);
+                        : scan.has_creases() ? by_lattice_with_creases(scan, sizing, effort, result, progress)
+                                             : best_by_lattice(scan, sizing, effort, progress);
   if (!candidate.failure.empty() && options.method == SimplifyMethod::lattice) {
     result.method = SimplifyMethod::collapse;
     result.fallback_reason = candidate.failure;
-    if (!scan.features().sharp.empty())
-      result.feature_remark = "triangles of the wanted size are too large for the features: creases are not kept";
-    Scan plain = scan.without_features();
-    candidate = by_contraction(plain, sizing, progress);
+    candidate = by_contraction(scan, sizing, progress);
   }
   if (!candidate.failure.empty())
     throw NotMeshable({.what = "no valid surface of this size: " + candidate.failure,
@@ -289,8 +299,16 @@ Candidate make_surface(Scan& scan, const SizingOptions& sizing, const SimplifyOp
                        .advice = "more triangles (--faces, or a smaller --edge-length or --deviation)"});
   result.crossings_mended = candidate.crossings_mended;
   result.faces_after = candidate.mesh.triangles.size();
-  result.result_features = edges_of(candidate.net);
+  result.feature_edges_kept = edges_of(candidate.net).size();
   return candidate;
+}
+
+// What bounds the tetrahedra's angles; what is sharp in the scan stays so.
+bool open_wedges(Candidate& candidate, Scan& scan) {
+  return open_wedges(candidate.mesh, scan.reference(),
+                     {.keep_volume = scan.is_closed(),
+                      .constraints = held_lines(candidate.net, candidate.mesh.vertices.size())})
+      .opened();
 }
 
 // The largest distances are at a few fins and folds thinner than the triangles, far from all others: these places get
@@ -322,18 +340,17 @@ void require_positive(double value, const char* what) {
 
 // The deviation of linear triangles goes with the edge length squared, place by place: a few surfaces are made, and the
 // edge lengths renewed from how far each came from the scan there (bounds, not samples).
-SurfaceMesh make_surface_within(Scan& scan, const LargestDeviation& wanted, const SimplifyOptions& options,
-                                SimplifyResult& result, const Progress& progress) {
+Candidate make_surface_within(Scan& scan, const LargestDeviation& wanted, const SimplifyOptions& options,
+                              SimplifyResult& result, const Progress& progress) {
   constexpr int most_trials = 6;
   constexpr double margin = 0.7;          // of the bound, aimed at
-  constexpr double first_edge = 12;       // edge length of the first surface, over the deviation
   constexpr double most_shrinking = 0.5;  // of an edge from trial to trial
   constexpr double most_growing = 2.8;    // after the first, whose lengths are a guess; later ones only shrink
   constexpr double shortest_edge = 0.5;   // over the deviation: shorter ones help nothing
   // A deviation far below the scan's own facets asks for more; nothing is known there.
   const double most_triangles = 4 * static_cast<double>(scan.mesh.triangles.size());
   std::vector<double> length(scan.mesh.vertices.size(), first_edge * wanted.distance);
-  SurfaceMesh best;
+  Candidate best;
   SimplifyResult best_result;
   for (int trial = 0; trial < most_trials; ++trial) {
     progress("deviation", static_cast<double>(trial) / most_trials);
@@ -344,12 +361,12 @@ SurfaceMesh make_surface_within(Scan& scan, const LargestDeviation& wanted, cons
     sizing.smallest = 0.01;
     sizing.largest = 100;
     sizing.factors = length;  // only their ratios count: the number of triangles sets the scale
-    SurfaceMesh surface =
-        make_surface(scan, sizing, options, trial == 0 ? Effort::low : options.effort, result, progress).mesh;
-    const DeviationBound bound = bound_deviation(surface, scan.mesh, {.limit = wanted.distance});
+    Candidate surface =
+        make_surface(scan, sizing, options, trial == 0 ? Effort::low : options.effort, result, progress);
+    const DeviationBound bound = bound_deviation(surface.mesh, scan.mesh, {.limit = wanted.distance});
     result.largest_deviation = bound.upper();
-    const bool better = best.triangles.empty() || result.largest_deviation < best_result.largest_deviation;
-    const std::vector<double> deviation = scan.by_vertex(local_deviation(surface, scan.reference(), bound),
+    const bool better = best.mesh.triangles.empty() || result.largest_deviation < best_result.largest_deviation;
+    const std::vector<double> deviation = scan.by_vertex(local_deviation(surface.mesh, scan.reference(), bound),
                                                          [](double a, double b) { return std::max(a, b); });
     if (better) {
       best = std::move(surface);
@@ -360,6 +377,15 @@ SurfaceMesh make_surface_within(Scan& scan, const LargestDeviation& wanted, cons
       const double ratio = std::sqrt(margin * wanted.distance / std::max(deviation[v], 1e-3 * wanted.distance));
       length[v] = std::max(length[v] * std::clamp(ratio, most_shrinking, trial == 0 ? most_growing : 1.0),
                            shortest_edge * wanted.distance);
+    }
+  }
+  // The deviation that was asked for comes before the tetrahedra.
+  Candidate opened = best;
+  if (options.method == SimplifyMethod::lattice && open_wedges(opened, scan)) {
+    const double reached = bound_deviation(opened.mesh, scan.mesh, {.limit = wanted.distance}).upper();
+    if (!wanted.required || reached <= wanted.distance) {
+      best = std::move(opened);
+      best_result.largest_deviation = reached;
     }
   }
   if (wanted.required && best_result.largest_deviation > wanted.distance)
@@ -382,22 +408,32 @@ double wanted_faces(const TargetSize& size, const SurfaceMesh& scan) {
   return surface_area(scan) / (equilateral_area * length * length);
 }
 
+// Of the result, about.
+double typical_edge(const TargetSize& size, const SurfaceMesh& scan) {
+  if (const auto* bound = std::get_if<LargestDeviation>(&size)) return first_edge * bound->distance;
+  return std::sqrt(surface_area(scan) / (equilateral_area * std::max(wanted_faces(size, scan), fewest_faces)));
+}
+
 }  // namespace
 
 SimplifyResult simplify(const SurfaceMesh& mesh, SurfaceMesh& surface, const SimplifyOptions& options,
                         const Progress& progress) {
   SimplifyResult result;
   Features features;
-  if (options.method == SimplifyMethod::lattice)
-    features =
-        options.given_features ? Features{.edges = *options.given_features} : find_features(mesh, options.features);
+  if (options.method == SimplifyMethod::lattice) {
+    features = find_features(mesh, options.given_features ? FeatureOptions{.angle_deg = {}} : options.features);
+    if (options.given_features) features.edges = match_features(mesh, *options.given_features);
+  }
   result.feature_edges = features.edges.size();
+  result.features = lines_of(mesh, features.edges);
+  if (!options.given_features)
+    features.edges = select_features(mesh, std::move(features.edges), typical_edge(options.size, mesh));
   Scan scan(mesh, std::move(features.edges),
             std::max(curve_tolerance * bounding_box(mesh.vertices).diagonal(), noise_on_curves * features.noise));
   result.faces_before = mesh.triangles.size();
   if (const auto* bound = std::get_if<LargestDeviation>(&options.size)) {
     require_positive(bound->distance, "the deviation");
-    surface = make_surface_within(scan, *bound, options, result, progress);
+    surface = make_surface_within(scan, *bound, options, result, progress).mesh;
   } else {
     const double faces = wanted_faces(options.size, mesh);
     require_positive(faces, "the number of triangles");
@@ -417,6 +453,7 @@ SimplifyResult simplify(const SurfaceMesh& mesh, SurfaceMesh& surface, const Sim
     Candidate candidate = make_surface(scan, sizing, options, options.effort, result, progress);
     if (result.method == SimplifyMethod::lattice)
       lower_worst(candidate, scan, plan_of(options.effort).rounds_for_worst, result, progress);
+    if (options.method == SimplifyMethod::lattice) open_wedges(candidate, scan);
     surface = std::move(candidate.mesh);
   }
   return result;

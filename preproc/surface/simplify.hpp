@@ -3,9 +3,11 @@
 // of entropy and fit.
 #pragma once
 
+#include "preproc/mesh/effort.hpp"
 #include "preproc/mesh/progress.hpp"
 #include "preproc/mesh/surface_mesh.hpp"
 #include "preproc/surface/collapse.hpp"
+#include "preproc/surface/feature_file.hpp"
 #include "preproc/surface/features.hpp"
 #include "preproc/surface/sizing_field.hpp"
 
@@ -39,9 +41,6 @@ enum class SimplifyMethod {
   lattice,   // fields on the scan, extraction, then entropy and fit optimised together
 };
 
-// What to spend time on: `low` for previews and sweeps of parameters, `high` for fidelity.
-enum class Effort { low, normal, high };
-
 struct SimplifyOptions {
   SimplifyMethod method = SimplifyMethod::lattice;
   TargetSize size = FaceRatio{0.13};
@@ -51,7 +50,7 @@ struct SimplifyOptions {
   // Creases and their corners are kept exactly by the `lattice` method, and open borders always are. The angle unset:
   // no creases.
   FeatureOptions features;
-  std::optional<std::vector<FeatureEdge>> given_features;  // edges of the scan, instead of those that would be found
+  std::optional<FeatureLines> given_features;  // instead of those that would be found; see match_features.hpp
   CollapseOptions collapse;  // objective, placement and cost of the `collapse` method; its face count is set by `size`
 };
 
@@ -63,9 +62,10 @@ struct SimplifyResult {
   std::size_t crossings_mended = 0;  // pairs of faces that passed through one another before the guard
   double largest_deviation = 0;      // an upper bound, two-sided, model units; only where the size is a deviation
   std::size_t feature_edges = 0;     // of the scan, that were found or given
+  FeatureLines features;             // the creases of the scan that were to be kept
   // Where triangles of the wanted size are too large for the features: how that was settled; empty where it was not so.
   std::string feature_remark;
-  std::vector<FeatureEdge> result_features;  // edges of the result that stand for creases
+  std::size_t feature_edges_kept = 0;  // edges of the result that stand for creases and borders
 };
 
 // `mesh` must be manifold, outward and free of self-intersections (see `repair`), closed or with borders; so is the

@@ -235,7 +235,13 @@ std::vector<Wedge> find_wedges(const SurfaceMesh& mesh, const ReferenceSurface& 
 }
 
 WedgeResult open_wedges(SurfaceMesh& mesh, const ReferenceSurface& scan, const WedgeOptions& options) {
-  const std::vector<Wedge> wedges = find_wedges(mesh, scan, options.least_dihedral_deg);
+  std::vector<Wedge> wedges = find_wedges(mesh, scan, options.least_dihedral_deg);
+  // An edge whose ends are held is as sharp as it is meant to be.
+  const auto is_fixed = [&](const Wedge& w, std::uint32_t k) {
+    return options.constraints[mesh.triangles[w.face][(w.side + k) % 3]] == VertexConstraint::fixed;
+  };
+  if (!options.constraints.empty())
+    std::erase_if(wedges, [&](const Wedge& w) { return is_fixed(w, 1) && is_fixed(w, 2); });
   WedgeResult result;
   result.before = result.after = sharper_than_wanted(wedges);
   if (result.before == 0) return result;

@@ -36,6 +36,7 @@ struct WedgeOptions {
 struct WedgeResult {
   std::size_t before = 0, after = 0;  // wedges sharper than wanted
   double sharpest_deg = 180;          // of those left, or 180
+  bool opened() const { return after < before; }
 };
 
 // The edges sharper than the limit, with the angle wanted of them. The scan counts as sharp where its own edges,

@@ -218,6 +218,19 @@ class Optimisation {
 
 }  // namespace
 
+OptimiseOptions optimise_options(Effort effort) {
+  OptimiseOptions options;
+  if (effort == Effort::low) {
+    options.threshold = 1.3;
+    options.insertion_rounds = 1;
+  }
+  if (effort == Effort::high) {
+    options.threshold = 1.6;
+    options.insertion_rounds = 3;
+  }
+  return options;
+}
+
 OptimiseResult optimise_tetrahedra(TetMesh& mesh, std::size_t kept, const OptimiseOptions& options,
                                    const Progress& progress) {
   Optimisation optimisation(mesh, options, progress);

