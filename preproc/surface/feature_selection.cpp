@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <set>
 
 namespace scan2fea {
 namespace {
@@ -98,13 +100,31 @@ bool join_small_patches(const SurfaceMesh& scan, const std::vector<Vec3>& normal
   return true;
 }
 
-void drop_short_chains(const SurfaceMesh& scan, double least_length, std::vector<FeatureEdge>& sharp) {
-  UnionFind chains(scan.vertices.size());
-  for (const auto& [a, b] : sharp) chains.unite(a, b);
-  std::vector<double> length(scan.vertices.size(), 0);
-  for (const auto& [a, b] : sharp) length[chains.find(a)] += (scan.vertices[a] - scan.vertices[b]).norm();
-  std::erase_if(sharp, [&](const FeatureEdge& e) { return length[chains.find(e[0])] < least_length; });
-}
+// Creases that hang together, named by their smallest vertex.
+class Chains {
+ public:
+  Chains(const SurfaceMesh& scan, const std::vector<FeatureEdge>& sharp)
+      : sets_(scan.vertices.size()), length_(scan.vertices.size(), 0), free_ends_(scan.vertices.size(), 0) {
+    std::vector<int> degree(scan.vertices.size(), 0);
+    for (const auto& [a, b] : sharp) {
+      sets_.unite(a, b);
+      ++degree[a];
+      ++degree[b];
+    }
+    for (const auto& [a, b] : sharp) length_[sets_.find(a)] += (scan.vertices[a] - scan.vertices[b]).norm();
+    for (std::uint32_t v = 0; v < degree.size(); ++v)
+      if (degree[v] == 1) ++free_ends_[sets_.find(v)];
+  }
+
+  std::uint32_t of(const FeatureEdge& edge) { return sets_.find(edge[0]); }
+  double length(std::uint32_t chain) const { return length_[chain]; }
+  bool has_free_end(std::uint32_t chain) const { return free_ends_[chain] > 0; }
+
+ private:
+  UnionFind sets_;
+  std::vector<double> length_;
+  std::vector<int> free_ends_;
+};
 
 }  // namespace
 
@@ -115,8 +135,28 @@ std::vector<FeatureEdge> select_features(const SurfaceMesh& scan, std::vector<Fe
   const double least_area = selection.least_triangles * equilateral_area * edge_length * edge_length;
   for (int round = 0; round < most_rounds && !sharp.empty(); ++round)
     if (!join_small_patches(scan, normals, least_area, sharp)) break;
-  drop_short_chains(scan, selection.shortest_chain * edge_length, sharp);
+  Chains chains(scan, sharp);
+  std::erase_if(sharp, [&](const FeatureEdge& e) {
+    const std::uint32_t chain = chains.of(e);
+    const double shortest = chains.has_free_end(chain) ? selection.shortest_open : selection.shortest_closed;
+    return chains.length(chain) < shortest * edge_length;
+  });
   return sharp;
+}
+
+std::vector<FeatureEdge> without_short_creases_near(const SurfaceMesh& scan, const std::vector<FeatureEdge>& sharp,
+                                                    const std::vector<Vec3>& places, double reach, double longest) {
+  Chains chains(scan, sharp);
+  std::set<std::uint32_t> dropped;
+  for (const FeatureEdge& e : sharp) {
+    if (chains.length(chains.of(e)) >= longest) continue;
+    for (const Vec3& place : places)
+      if ((scan.vertices[e[0]] - place).norm() < reach || (scan.vertices[e[1]] - place).norm() < reach)
+        dropped.insert(chains.of(e));
+  }
+  std::vector<FeatureEdge> kept = sharp;
+  std::erase_if(kept, [&](const FeatureEdge& e) { return dropped.contains(chains.of(e)); });
+  return kept;
 }
 
 }  // namespace scan2fea

@@ -12,13 +12,20 @@ struct FeatureSelection {
   // Areas that creases cut out of the surface must have room for so many equilateral triangles; smaller ones are joined
   // with the neighbour from which the smoothest crease parts them. A scan's folds and specks are full of them.
   double least_triangles = 4;
-  // Chains of creases that hang together and are shorter than this times the edge length are dropped.
-  double shortest_chain = 4;
+  // Creases that hang together and are shorter than so many edge lengths are dropped: those with free ends, which a scan
+  // has in its folds, and those without, such as the rim of a hole.
+  double shortest_open = 8;
+  double shortest_closed = 3;
 };
 
 // The creases to keep, sorted; a subset of `sharp`. `edge_length`: mean one of the result, model units. A few passes,
 // each linear but for a sort.
 std::vector<FeatureEdge> select_features(const SurfaceMesh& scan, std::vector<FeatureEdge> sharp, double edge_length,
                                          const FeatureSelection& selection = {});
+
+// Without the creases that hang together over less than `longest` (model units) and come within `reach` of one of the
+// places. Sorted as given.
+std::vector<FeatureEdge> without_short_creases_near(const SurfaceMesh& scan, const std::vector<FeatureEdge>& sharp,
+                                                    const std::vector<Vec3>& places, double reach, double longest);
 
 }  // namespace scan2fea

@@ -91,7 +91,8 @@ void mend(SurfaceMesh& mesh, FeatureNet& net, const ReferenceSurface& scan, cons
   } else if (round > 0) {
     flip_worst(mesh, scan, near, movable);
   }
-  refit(mesh, net, scan, movable, std::min(0.05, options.fidelity_of_diagonal * std::pow(1.5, round + 1)),
+  refit(mesh, net, scan, movable,
+        std::min(options.loosest_fidelity_of_diagonal, options.fidelity_of_diagonal * std::pow(1.5, round + 1)),
         nearest_to_scan);
   // Last, since the fit pulls crossing sheets back to where they crossed.
   if (!defects.crossings.empty()) {

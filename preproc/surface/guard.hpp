@@ -25,6 +25,7 @@ struct GuardOptions {
   bool keep_volume = true;
   // Of the local optimisation, see ShapeFitOptions; grows by half each round.
   double fidelity_of_diagonal = 0.0016;
+  double loosest_fidelity_of_diagonal = 0.05;  // where that growth ends
   VertexConstraints constraints;
 };
 

@@ -101,10 +101,10 @@ class Scan {
   bool has_creases() const { return !features_->sharp.empty(); }
   bool is_closed() const { return features_->border.empty(); }
 
-  // From here on there are none.
-  void drop_creases() {
+  // From here on there are only these.
+  void keep_creases(std::vector<FeatureEdge> sharp) {
     reference_.reset();
-    features_.emplace(mesh, std::vector<FeatureEdge>{}, features_->curve_tolerance);
+    features_.emplace(mesh, std::move(sharp), features_->curve_tolerance);
   }
 
   // What the reference's vertices have, by vertex of the scan: of the copies at a crease, the one that `wins`.
@@ -128,7 +128,8 @@ struct Candidate {
   SurfaceMesh mesh;
   FeatureNet net;
   std::size_t crossings_mended = 0;
-  std::string failure;  // empty where `mesh` is valid
+  std::string failure;          // empty where `mesh` is valid
+  std::vector<Vec3> failed_at;  // places of what is wrong
   ShapeFitResult fit;
 };
 
@@ -138,14 +139,21 @@ std::string describe(const SurfaceDefects& defects) {
 }
 
 // Exact volume, then the guard.
-void finish(Candidate& candidate, Scan& scan, const Progress& progress) {
+void finish(Candidate& candidate, Scan& scan, const GuardOptions& options, const Progress& progress) {
   try {
-    GuardOptions guard;
+    GuardOptions guard = options;
     guard.least_angle_deg = least_angle_deg;
     guard.keep_volume = scan.is_closed();
     const GuardResult guarded = guard_surface(candidate.mesh, candidate.net, scan.reference(), guard, progress);
     candidate.crossings_mended = guarded.before.crossings.size();
-    if (!guarded.clean()) candidate.failure = describe(guarded.after);
+    if (guarded.clean()) return;
+    candidate.failure = describe(guarded.after);
+    const auto centre = [&](std::uint32_t f) {
+      const auto& [a, b, c] = candidate.mesh.triangles[f];
+      return Vec3((candidate.mesh.vertices[a] + candidate.mesh.vertices[b] + candidate.mesh.vertices[c]) / 3);
+    };
+    for (const FacePair& pair : guarded.after.crossings) candidate.failed_at.push_back(centre(pair.face));
+    for (const std::uint32_t f : guarded.after.inverted) candidate.failed_at.push_back(centre(f));
   } catch (const NotMeshable& e) {
     candidate.failure = e.parts().what;
   }
@@ -178,7 +186,13 @@ Candidate by_lattice(Scan& scan, const SizingOptions& sizing, const FitPlan& pla
   fit.rounds = plan.rounds;
   if (!scan.has_features()) fit.nearest_vertex_of_scan_vertex.reset();
   candidate.fit = optimise_shape_and_fit(candidate.mesh, candidate.net, scan.reference(), fit, progress);
-  finish(candidate, scan, progress);
+  GuardOptions guard;
+  // On parts with edges, not much looser than the fit: what is plane stays plane.
+  if (scan.has_features()) {
+    guard.fidelity_of_diagonal = fit.fidelity_of_diagonal;
+    guard.loosest_fidelity_of_diagonal = 3 * fit.fidelity_of_diagonal;
+  }
+  finish(candidate, scan, guard, progress);
   return candidate;
 }
 
@@ -186,13 +200,13 @@ Candidate best_by_lattice(Scan& scan, const SizingOptions& sizing, Effort effort
   const FitPlan plan = plan_of(effort);
   if (plan.trials == 1) return by_lattice(scan, sizing, plan, 1, progress);
   constexpr double strength_step = 0.03;
-  Candidate best;
+  Candidate best, failed;
   double best_score = std::numeric_limits<double>::infinity();
   for (int trial = 0; trial < plan.trials; ++trial) {
     const double strength_factor = 1 + strength_step * (trial - (plan.trials - 1) / 2.0);
     Candidate candidate = by_lattice(scan, sizing, plan, strength_factor, progress);
     if (!candidate.failure.empty()) {
-      if (best.mesh.triangles.empty()) best.failure = candidate.failure;
+      failed = std::move(candidate);
       continue;
     }
     // All that is to be small, at once.
@@ -202,7 +216,7 @@ Candidate best_by_lattice(Scan& scan, const SizingOptions& sizing, Effort effort
     best = std::move(candidate);
     best_score = score;
   }
-  return best;
+  return best.mesh.triangles.empty() ? failed : best;
 }
 
 // Where the lattice gives way: contractions towards the same sizing, none of which makes faces meet, then the same fit.
@@ -230,7 +244,7 @@ Candidate by_contraction(Scan& scan, const SizingOptions& sizing, const Progress
   }
   optimise_shape_and_fit(fitted.mesh, scan.reference(), fit, progress);
   const std::vector<Vec3> targets = fitted.mesh.vertices;
-  finish(fitted, scan, progress);
+  finish(fitted, scan, {}, progress);
   if (fitted.failure.empty()) return fitted;
 
   SurfaceMesh near_fit = contracted.mesh;
@@ -255,24 +269,49 @@ Candidate by_collapse(Scan& scan, double faces, const SimplifyOptions& options, 
   return candidate;
 }
 
-// The lattice with the creases; where triangles of the wanted size are too large for them, with smaller ones, or
-// without creases.
+// Gives up the short creases near the places where a surface failed: whether there were some.
+bool drop_short_creases(Scan& scan, const Candidate& failed) {
+  constexpr double longest = 0.5;  // of the diagonal: the folds of a scan, not the edges of a part
+  constexpr double reach = 2;      // mean edges
+  const double edge =
+      std::sqrt(surface_area(failed.mesh) / (equilateral_area * static_cast<double>(failed.mesh.triangles.size())));
+  std::vector<FeatureEdge> left =
+      without_short_creases_near(scan.mesh, scan.features().sharp, failed.failed_at, reach * edge,
+                                 longest * bounding_box(scan.mesh.vertices).diagonal());
+  if (left.size() == scan.features().sharp.size()) return false;
+  scan.keep_creases(std::move(left));
+  return true;
+}
+
+// The lattice with the creases; where triangles of the wanted size are too large for them, without the short ones, with
+// smaller triangles, or without any.
 Candidate by_lattice_with_creases(Scan& scan, SizingOptions sizing, Effort effort, SimplifyResult& result,
                                   const Progress& progress) {
-  constexpr int most_trials = 2;
+  constexpr int most_trials = 4;
+  constexpr int most_larger = 1;  // times
   constexpr double growth = 1.6;  // of the number of triangles
   const double wanted = sizing.triangles;
-  for (int trial = 0; trial < most_trials; ++trial, sizing.triangles *= growth) {
+  const std::size_t creases = scan.features().sharp.size();
+  const std::string too_large = "triangles of the wanted size are too large for the creases: ";
+  int larger = 0;
+  for (int trial = 0; trial < most_trials && scan.has_creases(); ++trial) {
     Candidate candidate = best_by_lattice(scan, sizing, effort, progress);
-    if (!candidate.failure.empty()) continue;
-    if (static_cast<double>(candidate.mesh.triangles.size()) > 1.005 * wanted + 1)
-      result.feature_remark = "triangles of the wanted size are too large for the creases: made " +
-                              std::to_string(candidate.mesh.triangles.size()) + " instead of " +
-                              std::to_string(std::lround(wanted));
-    return candidate;
+    if (candidate.failure.empty()) {
+      const std::size_t kept = scan.features().sharp.size();
+      if (kept < creases)
+        result.feature_remark = too_large + std::to_string(creases - kept) + " of " + std::to_string(creases) +
+                                " edges of creases are not kept";
+      if (static_cast<double>(candidate.mesh.triangles.size()) > 1.005 * wanted + 1)
+        result.feature_remark = too_large + "made " + std::to_string(candidate.mesh.triangles.size()) + " instead of " +
+                                std::to_string(std::lround(wanted));
+      return candidate;
+    }
+    if (drop_short_creases(scan, candidate)) continue;
+    if (larger++ == most_larger) break;
+    sizing.triangles *= growth;
   }
-  result.feature_remark = "triangles of the wanted size are too large for the creases: none is kept";
-  scan.drop_creases();
+  result.feature_remark = too_large + "none is kept";
+  scan.keep_creases({});
   sizing.triangles = wanted;
   return best_by_lattice(scan, sizing, effort, progress);
 }
