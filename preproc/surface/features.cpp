@@ -19,6 +19,9 @@ constexpr double noise_to_filter = 0.005;
 // A small loop or net whose edges are sharper than this times the limit, in the mean, is a small part's: 70°.
 constexpr double sharper_than_noise = 1.75;
 
+// Noise flattens some edges of a crease, but not all of them in a row, to below this share of the limit.
+constexpr double near_crease_of_angle = 0.6;
+
 // Of the angle of a weak crease.
 constexpr double continuation_left_by_filter = 0.75;
 
@@ -96,7 +99,9 @@ Features find_features(const SurfaceMesh& scan, const FeatureOptions& options) {
     // Normals that are filtered strongly tell sharp edges from noise; those that are filtered less still show the weak
     // ones, where chains tell which to believe.
     continuation_deg *= continuation_left_by_filter;
-    const NormalFilter filter(scan, stars, faces_near_sharp_edges(scan, stars, neighbours, normals, continuation_deg));
+    const NormalFilter filter(
+        scan, stars,
+        faces_near_sharp_edges(scan, stars, neighbours, normals, near_crease_of_angle * *options.angle_deg));
     filter.apply(normals, {.passes = 5, .same_side_deg = 20});
     filter.apply(finer_normals, {.passes = 5, .same_side_deg = 10});
   }
