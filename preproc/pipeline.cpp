@@ -131,9 +131,10 @@ PipelineResult run_pipeline(SurfaceMesh scan, const PipelineOptions& options, co
             [&](StageRecord& record) { describe(enrich(result.surface, *options.enrich, progress), record); });
   if (options.simplify)
     log.run("simplify", [&](StageRecord& record) {
-      describe(options.enrich ? simplify(result.surface, *options.simplify, progress)
-                              : simplify(result.scan, result.surface, *options.simplify, progress),
-               options.simplify->size, record);
+      SimplifyResult simplified = options.enrich ? simplify(result.surface, *options.simplify, progress)
+                                                 : simplify(result.scan, result.surface, *options.simplify, progress);
+      describe(simplified, options.simplify->size, record);
+      result.features = std::move(simplified.features);
     });
   if (options.tetrahedralize) {
     log.run("tetrahedralize", [&](StageRecord& record) {

@@ -37,8 +37,9 @@ struct StageRecord {
 };
 
 struct PipelineResult {
-  SurfaceMesh scan;     // after repair: what the result is compared with
-  SurfaceMesh surface;  // the last surface of the chain
+  SurfaceMesh scan;       // after repair: what the result is compared with
+  SurfaceMesh surface;    // the last surface of the chain
+  FeatureLines features;  // the scan's edges that simplification was to keep
   std::optional<TetMesh> volume_mesh;
   std::vector<StageRecord> stages;
 };

@@ -63,6 +63,26 @@ TEST_F(Command, HolesAreClosedOrKept) {
   EXPECT_EQ(run_command("repair " + input + "--holes patch").exit_code, 2);
 }
 
+TEST_F(Command, FeaturesThatWereWrittenCanBeGiven) {
+  write_surface(analytic::box({4, 3, 2}, 0.25), path("box.ply"));
+  const std::string input = "surface '" + path("box.ply") + "' --faces 1200 --force -o '" + path("out.ply") + "' ";
+  const std::string edges = path("edges.obj");
+  ASSERT_EQ(run_command(input + "--features '" + edges + "'").exit_code, 0);
+  const std::string found = contents(path("out.ply")), lines = contents(edges);
+  ASSERT_EQ(run_command(input + "--features-from '" + edges + "' --features '" + path("again.obj") + "'").exit_code, 0);
+  EXPECT_EQ(contents(path("again.obj")), lines);
+  EXPECT_EQ(contents(path("out.ply")), found);
+  EXPECT_EQ(run_command(input + "--feature-angle 30 --features-from '" + edges + "'").exit_code, 2);
+}
+
+TEST_F(Command, GivenFeaturesMustBeOnTheScan) {
+  write_text(path("edges.obj"), "v 0 0 0\nv 30 0 0\nl 1 2\n");
+  const auto result = run_command("surface '" + scan_of_a_sphere() + "' -o '" + path("out.ply") +
+                                  "' --faces 500 --features-from '" + path("edges.obj") + "'");
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_THAT(last_line_of(result.standard_error), HasSubstr("(0, 0, 0)"));
+}
+
 TEST_F(Command, AVolumeNeedsItsHolesClosed) {
   const auto result = run_command("run '" + scan_of_a_sphere() + "' -o '" + path("out.inp") + "' --holes keep");
   EXPECT_EQ(result.exit_code, 2);

@@ -219,6 +219,16 @@ void add_simplify_flags(CLI::App& command, SimplifyOptions& options) {
       ->type_name("DEG|off");
 }
 
+void add_feature_file_flags(CLI::App& command, FeatureFileFlags& flags) {
+  command.add_option("--features", flags.write, "Write the scan's edges that were to be kept, as lines in OBJ")
+      ->type_name("FILE.obj");
+  command
+      .add_option("--features-from", flags.read,
+                  "Keep the scan's edges along the lines of this OBJ, instead of those that --feature-angle would find")
+      ->excludes("--feature-angle")
+      ->type_name("FILE.obj");
+}
+
 void add_effort_flag(CLI::App& command, PipelineOptions& options) {
   const Choices<Effort> efforts{{"low", Effort::low}, {"normal", Effort::normal}, {"high", Effort::high}};
   command

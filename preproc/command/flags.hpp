@@ -54,12 +54,19 @@ struct OutputFlag {
   bool force = false;
 };
 
+// Feature edges in and out, see feature_file.hpp.
+struct FeatureFileFlags {
+  std::optional<std::filesystem::path> write;
+  std::optional<std::filesystem::path> read;
+};
+
 void add_common_flags(CLI::App& command, CommonFlags& flags);
 void add_output_flag(CLI::App& command, OutputFlag& flag);
 void add_size_flags(CLI::App& command, SizeFlags& flags);
 void add_repair_flags(CLI::App& command, RepairOptions& options);
 void add_enrich_flags(CLI::App& command, EnrichOptions& options);
 void add_simplify_flags(CLI::App& command, SimplifyOptions& options);
+void add_feature_file_flags(CLI::App& command, FeatureFileFlags& flags);  // after add_simplify_flags
 // For the stages that `options` has by then.
 void add_effort_flag(CLI::App& command, PipelineOptions& options);
 void add_tetrahedralize_flags(CLI::App& command, TetrahedralizeOptions& options, int& order);

@@ -6,6 +6,7 @@
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/read_surface.hpp"
 #include "preproc/mesh/write_surface.hpp"
+#include "preproc/surface/feature_file.hpp"
 
 namespace scan2fea::command {
 namespace {
@@ -54,17 +55,20 @@ void add_surface_flags(CLI::App& command, MakeMeshJob& job) {
   command.add_flag("--enrich", job.enrich, "First add points where the scanner left too few (see scan2fea enrich)");
   add_enrich_flags(command, job.enrich_options);
   add_simplify_flags(command, *job.pipeline.simplify);
+  add_feature_file_flags(command, job.features);
   add_effort_flag(command, job.pipeline);
 }
 
 int make_mesh(MakeMeshJob job) {
   require_known_format(job);
   require_writable(job.output.output, job.output.force);
+  if (job.features.write) require_writable(*job.features.write, job.output.force);
   const std::vector<Gate> gates = parse_gates(job.common);
 
   ProgressDisplay display(job.common.quiet);
   SurfaceMesh scan = read_surface(job.common.input);
   display.line(describe_input(scan, job.common));
+  if (job.features.read) job.pipeline.simplify->given_features = read_feature_lines(*job.features.read);
   if (job.pipeline.simplify) job.pipeline.simplify->size = job.size.resolve(bounding_box(scan.vertices));
   if (job.enrich) job.pipeline.enrich = job.enrich_options;
   const PipelineResult result = run_naming_input(std::move(scan), job, display);
@@ -77,6 +81,7 @@ int make_mesh(MakeMeshJob job) {
                           .stages = &result.stages};
     if (!report_figures(subject, job.common, gates, display)) return 1;
   }
+  if (job.features.write) write_feature_lines(result.features, *job.features.write);
   if (result.volume_mesh) {
     const VolumeFileOptions options{.unit = job.common.unit.value_or(""),
                                     .provenance = job.common.input.filename().string(),

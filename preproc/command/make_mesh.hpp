@@ -9,6 +9,7 @@ struct MakeMeshJob {
   CommonFlags common;
   OutputFlag output;
   SizeFlags size;
+  FeatureFileFlags features;
   PipelineOptions pipeline;
   bool enrich = false;  // --enrich of the commands in which that stage is a choice
   EnrichOptions enrich_options;

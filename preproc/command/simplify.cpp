@@ -12,6 +12,7 @@ SubCommand add_simplify(CLI::App& root) {
   add_output_flag(*app, job->output);
   add_size_flags(*app, job->size);
   add_simplify_flags(*app, *job->pipeline.simplify);
+  add_feature_file_flags(*app, job->features);
   add_effort_flag(*app, job->pipeline);
   return {app, [job] { return make_mesh(*job); }};
 }
