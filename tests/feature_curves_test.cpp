@@ -136,11 +136,25 @@ TEST(FeatureCurves, ALoopWithOneCornerBeginsAndEndsThere) {
 }
 
 TEST(FeatureCurves, AJaggedBorderHasNoCornersWhereItIsStraight) {
-  SurfaceMesh sheet = analytic::sheet(8, 3, 0.1);
-  // The rim at y = 0 zigzags by 60 degrees from vertex to vertex; edges are six times as long.
-  for (std::size_t i = 0; i <= 80; ++i) sheet.vertices[i][1] = i % 2 == 0 || i == 80 ? 0.0 : 0.058;
-  const FeatureCurves features = trace_feature_curves(sheet, {}, uniform(sheet, 0.6));
-  EXPECT_EQ(features.corners.size(), 4U);
+  // The rim at y = 0 zigzags by 60 degrees from vertex to vertex; edges are six times as long. Also with the rim's
+  // edges halved, which bends it at every other vertex only.
+  for (const std::size_t period : {2U, 4U}) {
+    SurfaceMesh sheet = analytic::sheet(8, 3, 0.2 / static_cast<double>(period));
+    const std::size_t n = 40 * period;
+    for (std::size_t i = 0; i <= n; ++i) {
+      const std::size_t from_valley = std::min(i % period, period - i % period);
+      sheet.vertices[i][1] = 0.058 * static_cast<double>(2 * from_valley) / static_cast<double>(period);
+    }
+    const FeatureCurves features = trace_feature_curves(sheet, {}, uniform(sheet, 0.6));
+    EXPECT_EQ(features.corners.size(), 4U) << period;
+  }
+}
+
+TEST(FeatureCurves, CornersStandOutOfFinePolylines) {
+  // A turn of 45 degrees amid edges a tenth of the wanted length.
+  SurfaceMesh sheet = analytic::sheet(8, 3, 0.05);
+  for (Vec3& v : sheet.vertices) v[1] += std::max(0.0, v[0] - 4);
+  EXPECT_EQ(trace_feature_curves(sheet, {}, uniform(sheet, 0.5)).corners.size(), 6U);
 }
 
 }  // namespace

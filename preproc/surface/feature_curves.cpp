@@ -11,8 +11,9 @@
 namespace scan2fea {
 namespace {
 
-// A curve whose direction changes by more than this from vertex to vertex, in the median, is jagged.
-constexpr double jagged_median_deg = 25;
+// Where a curve turns to and fro, what it turns from vertex to vertex adds up to more than this times what it turns
+// between the ends of its reach. On an arc that is 2, at a corner 1.
+constexpr double jagged_turning = 2.5;
 
 struct Edge {
   std::uint32_t from;
@@ -117,14 +118,16 @@ class TurnsOfCurve {
       : scan_(scan), curve_(curve), edge_length_(edge_length), arc_{0} {
     for (std::size_t i = 0; i + 1 < curve.vertices.size(); ++i)
       arc_.push_back(arc_.back() + (at(i + 1) - at(i)).norm());
-    total_ = arc_.back() + (curve.closed ? (at(0) - at(curve.vertices.size() - 1)).norm() : 0);
+    const std::size_t n = curve.vertices.size();
+    total_ = arc_.back() + (curve.closed ? (at(0) - at(n - 1)).norm() : 0);
+    for (std::size_t i = 0; i < n; ++i) {
+      const bool end = !curve.closed && (i == 0 || i + 1 == n);
+      turns_.push_back(end ? 0 : turn_deg(at(i) - at((i + n - 1) % n), at((i + 1) % n) - at(i)));
+    }
   }
 
   // Vertices where it turns by more than the options allow, none nearer to another than the reach.
   std::vector<std::uint32_t> corners(const CornerOptions& options) const {
-    const bool jagged = median_turn_deg() > jagged_median_deg;
-    const double limit = jagged ? options.jagged_turn_deg : options.turn_deg;
-    const double reach = jagged ? options.jagged_reach : options.reach;
     struct Candidate {
       double turn;
       std::size_t index;
@@ -133,16 +136,19 @@ class TurnsOfCurve {
     const std::size_t inner_first = curve_.closed ? 0 : 1;
     const std::size_t inner_last = curve_.vertices.size() - (curve_.closed ? 0 : 1);
     for (std::size_t i = inner_first; i < inner_last; ++i) {
-      const double wide = turn_at(i, reach);
+      const double wide = turn_at(i, options.reach);
+      if (wide <= options.turn_deg) continue;
       // A bend that half the reach does not see is spread out: a curve finer than the edges, and no corner.
-      if (wide > limit && turn_at(i, reach / 2) > 0.75 * wide) candidates.push_back({wide, i});
+      const bool sharp = turn_at(i, options.reach / 2) > 0.75 * wide;
+      const bool jagged = turning_around(i, options.reach) > jagged_turning * wide;
+      if (jagged ? turn_at(i, options.jagged_reach) > options.jagged_turn_deg : sharp) candidates.push_back({wide, i});
     }
     std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
       return a.turn != b.turn ? a.turn > b.turn : a.index < b.index;
     });
     std::vector<std::size_t> chosen;
     for (const Candidate& c : candidates) {
-      const double distance = reach * edge_length_[curve_.vertices[c.index]];
+      const double distance = options.reach * edge_length_[curve_.vertices[c.index]];
       const bool clear = std::all_of(chosen.begin(), chosen.end(),
                                      [&](std::size_t other) { return arc_distance(c.index, other) > distance; });
       if (clear) chosen.push_back(c.index);
@@ -180,21 +186,30 @@ class TurnsOfCurve {
     return turn_deg(at(i) - point(arc_[i] - h), point(arc_[i] + h) - at(i));
   }
 
-  double median_turn_deg() const {
+  // What it turns from vertex to vertex, added up over this reach to either side.
+  double turning_around(std::size_t i, double reach) const {
     const std::size_t n = curve_.vertices.size();
-    std::vector<double> turns;
-    for (std::size_t i = curve_.closed ? 0 : 1; i + (curve_.closed ? 0 : 1) < n; ++i)
-      turns.push_back(turn_deg(at(i) - at((i + n - 1) % n), at((i + 1) % n) - at(i)));
-    if (turns.empty()) return 0;
-    const auto middle = turns.begin() + static_cast<std::ptrdiff_t>(turns.size() / 2);
-    std::nth_element(turns.begin(), middle, turns.end());
-    return *middle;
+    const double h = std::min(reach * edge_length_[curve_.vertices[i]], 0.49 * total_);
+    double sum = turns_[i];
+    for (std::size_t k = 1; k < n; ++k) {
+      const std::size_t j = curve_.closed ? (i + k) % n : i + k;
+      if (j >= n || arc_distance(i, j) > h) break;
+      sum += turns_[j];
+    }
+    for (std::size_t k = 1; k < n; ++k) {
+      if (!curve_.closed && k > i) break;
+      const std::size_t j = (i + n - k) % n;
+      if (arc_distance(i, j) > h) break;
+      sum += turns_[j];
+    }
+    return sum;
   }
 
   const SurfaceMesh& scan_;
   const FeatureCurve& curve_;
   const std::vector<double>& edge_length_;
-  std::vector<double> arc_;  // at each vertex, from the first
+  std::vector<double> arc_;    // at each vertex, from the first
+  std::vector<double> turns_;  // at each vertex, degrees
   double total_;
 };
 
