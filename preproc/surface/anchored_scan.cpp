@@ -14,9 +14,11 @@ namespace {
 // Over the wanted edge length: with features halved to this, each sample has vertices of its own beside it.
 constexpr double longest_feature_edge = 0.56;
 constexpr double equilateral_area = 0.43301270189221932;  // sqrt(3)/4, of edge length 1
-// Coarse triangles stray from curves as they do from surfaces: the sag of a mean edge on a radius of a tenth of the
-// diagonal.
-constexpr double sag_of_mean_edge = 1.2;
+// How far chords may be from a curve grows with the fourth power of the mean edge, from the given tolerance on edges of
+// a hundredth of the diagonal, up to a part of the edge: on coarse meshes, samples as dense as a fixed tolerance asks
+// for would force lengths on the surface that change faster than a lattice can follow.
+constexpr double tolerance_growth = 9200;
+constexpr double largest_tolerance_of_edge = 0.05;
 // Growth of edge lengths from the curves into the surface.
 constexpr double gradation_from_curves = 0.25;
 // Of sampling, and of telling the surface what came of it.
@@ -254,9 +256,11 @@ AnchoredScan anchor_scan(const FeatureScan& scan, const SizingOptions& options, 
     halve_long_edges(welded.mesh, welded.edge_length, welded.features, longest_scan_edge, longest_feature_edge);
   };
   refine();
-  const double mean_edge_squared = surface_area(scan.scan) / (equilateral_area * wanted);
-  const double tolerance = std::max(scan.curve_tolerance,
-                                    sag_of_mean_edge * mean_edge_squared / bounding_box(scan.scan.vertices).diagonal());
+  const double mean_edge = std::sqrt(surface_area(scan.scan) / (equilateral_area * wanted));
+  const double diagonal = bounding_box(scan.scan.vertices).diagonal();
+  const double tolerance =
+      std::max(scan.curve_tolerance,
+               mean_edge * std::min(largest_tolerance_of_edge, tolerance_growth * std::pow(mean_edge / diagonal, 3)));
   FeatureCurves curves;
   SampledPlaces places;
   const auto sample = [&] {
@@ -275,6 +279,7 @@ AnchoredScan anchor_scan(const FeatureScan& scan, const SizingOptions& options, 
 
   AnchoredScan result;
   result.triangles = wanted;
+  result.anchors.net.tolerance = tolerance;
   std::vector<std::uint32_t> sample_of_vertex;
   number_samples(welded, curves, places, result.anchors, sample_of_vertex);
   CutSurface cut = cut_along(welded.mesh, welded.sharp());

@@ -110,7 +110,7 @@ ExtractedLattice contract_clusters(const SurfaceMesh& scan, const Anchors& ancho
   result.vertex_of_node.resize(welded.size());
   for (std::size_t i = 0; i < welded.size(); ++i) result.vertex_of_node[i] = number[into[welded[i]]];
   if (!anchors.empty()) {
-    result.net.lines = anchors.net.lines;
+    result.net = anchors.net;
     for (std::size_t l = 0; l < result.net.lines.size(); ++l) {
       result.net.lines[l].vertices.clear();
       for (std::size_t i = 0; i < anchors.vertices_of_line[l].size(); ++i) {

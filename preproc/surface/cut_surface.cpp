@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 namespace scan2fea {
 namespace {
@@ -76,19 +77,23 @@ CutSurface cut_along(const SurfaceMesh& mesh, std::span<const FeatureEdge> edges
 }
 
 std::vector<FeatureEdge> boundary_edges(const SurfaceMesh& mesh) {
-  std::vector<FeatureEdge> all;
-  all.reserve(3 * mesh.triangles.size());
+  // Half-edges by the vertex that they start at; one is at a border if none goes back.
+  std::vector<std::uint32_t> first(mesh.vertices.size() + 1, 0), ends(3 * mesh.triangles.size());
   for (const Triangle& t : mesh.triangles)
-    for (std::size_t k = 0; k < 3; ++k) all.push_back(feature_edge(t[k], t[(k + 1) % 3]));
-  std::sort(all.begin(), all.end());
-  std::vector<FeatureEdge> once;
-  for (std::size_t i = 0; i < all.size();) {
-    std::size_t end = i + 1;
-    while (end < all.size() && all[end] == all[i]) ++end;
-    if (end == i + 1) once.push_back(all[i]);
-    i = end;
-  }
-  return once;
+    for (const std::uint32_t v : t) ++first[v + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
+  for (const Triangle& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k) ends[next[t[k]]++] = t[(k + 1) % 3];
+  std::vector<FeatureEdge> border;
+  for (std::uint32_t a = 0; a < mesh.vertices.size(); ++a)
+    for (std::uint32_t i = first[a]; i < first[a + 1]; ++i) {
+      const std::uint32_t b = ends[i];
+      if (std::find(ends.begin() + first[b], ends.begin() + first[b + 1], a) == ends.begin() + first[b + 1])
+        border.push_back(feature_edge(a, b));
+    }
+  std::sort(border.begin(), border.end());
+  return border;
 }
 
 }  // namespace scan2fea

@@ -23,7 +23,7 @@ struct CutSurface {
 // the result (see components.hpp) are called patches. Linear but for a sort of the edges.
 CutSurface cut_along(const SurfaceMesh& mesh, std::span<const FeatureEdge> edges);
 
-// Edges of one triangle only, in ascending order.
+// Edges of one triangle only, in ascending order. Precondition: oriented, manifold. Linear.
 std::vector<FeatureEdge> boundary_edges(const SurfaceMesh& mesh);
 
 }  // namespace scan2fea

@@ -4,6 +4,26 @@
 
 namespace scan2fea {
 
+double chord_deviation(const FeatureLine& line, double from, double to) {
+  const Vec3 a = line.point_at(from), chord = line.point_at(to) - a;
+  const double squared_length = chord.squaredNorm();
+  double largest = 0;
+  const auto visit = [&](double begin, double end) {
+    for (auto i = static_cast<std::size_t>(std::ceil(begin)); static_cast<double>(i) <= end; ++i) {
+      const Vec3 way = line.points[i] - a;
+      const double t = squared_length > 0 ? std::clamp(way.dot(chord) / squared_length, 0.0, 1.0) : 0.0;
+      largest = std::max(largest, (way - t * chord).norm());
+    }
+  };
+  if (from <= to) {
+    visit(from, to);
+  } else {
+    visit(from, static_cast<double>(line.points.size() - 1));
+    visit(0, to);
+  }
+  return largest;
+}
+
 std::vector<FeatureEdge> edges_of(const FeatureNet& net) {
   std::vector<FeatureEdge> edges;
   for (const FeatureLine& line : net.lines) {

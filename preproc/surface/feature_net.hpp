@@ -35,11 +35,16 @@ struct FeatureLine {
 // Empty for a surface without creases and borders.
 struct FeatureNet {
   std::vector<FeatureLine> lines;
+  double tolerance = 0;  // how far chords between vertices may be from the line, model units
   // Per face of the surface, the patch of the scan that it stands for: the lines part patches from one another.
   std::vector<std::uint32_t> patch_of_face;
 
   bool empty() const { return lines.empty(); }
 };
+
+// The largest distance of the line's points between two places to the chord between them; from > to: over the end of a
+// closed line.
+double chord_deviation(const FeatureLine& line, double from, double to);
 
 // Edges of the surface that stand for the lines, sorted.
 std::vector<FeatureEdge> edges_of(const FeatureNet& net);

@@ -86,6 +86,7 @@ Rewelded weld(SurfaceMesh improved, const std::vector<double>& edge_length,
   for (std::size_t c = 0; c < improved_of_cut.size(); ++c)
     patch[after.of_vertex[improved_of_cut[c]]] = patch_before[before.of_vertex[c]];
   result.net.lines = net.lines;
+  result.net.tolerance = net.tolerance;
   for (FeatureLine& line : result.net.lines)
     for (VertexOnLine& at : line.vertices) at.vertex = of_welded[at.vertex];
   for (Triangle& t : improved.triangles) {

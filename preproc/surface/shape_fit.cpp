@@ -120,9 +120,16 @@ class Fitter {
         mean_edge_(std::sqrt(4 / std::numbers::sqrt3 * scan.area / static_cast<double>(mesh.triangles.size()))),
         forward_(sample_surface(scan, longest_scan_edge * mean_edge_, most_samples_per_face * mesh.triangles.size())),
         fits_(mesh.triangles.size()) {
-    const double unit = options.fidelity_of_diagonal * scan.diagonal;
-    weight_unit_ = static_cast<double>(mesh.triangles.size()) / (scan.area * unit * unit);
+    set_fidelity(options.fidelity_of_diagonal);
     start_locations();
+  }
+
+  // The dial between shape and fit, of the diagonal; from the next location on.
+  void set_fidelity(double fidelity) {
+    const double unit = fidelity * scan_.diagonal;
+    weight_unit_ = static_cast<double>(mesh_.triangles.size()) / (scan_.area * unit * unit);
+    if (options_.lift_tail_of_diagonal)
+      tail_ = *options_.lift_tail_of_diagonal * fidelity / options_.fidelity_of_diagonal * scan_.diagonal;
   }
 
   // Locates all samples anew and condenses them.
@@ -153,6 +160,10 @@ class Fitter {
     return *std::max_element(steps.begin(), steps.end());
   }
 
+  void put(std::span<const std::uint32_t> copies, const Vec3& point) {
+    for (const std::uint32_t v : copies) mesh_.vertices[v] = point;
+  }
+
   // One Newton step, along its line, of a vertex that is there in several copies; not beyond `backward` and `forward`
   // (distances), and only to where the energy is lower.
   void slide(const FeatureLine& line, double& place, std::span<const std::uint32_t> copies, double backward,
@@ -181,10 +192,6 @@ class Fitter {
   }
 
  private:
-  void put(std::span<const std::uint32_t> copies, const Vec3& point) {
-    for (const std::uint32_t v : copies) mesh_.vertices[v] = point;
-  }
-
   // Of the faces around a vertex.
   double energy(std::span<const std::uint32_t> copies) const {
     double sum = 0;
@@ -272,8 +279,7 @@ class Fitter {
 
   double lift(double squared_distance) const {
     if (!options_.lift_tail_of_diagonal) return 1;
-    const double tail = *options_.lift_tail_of_diagonal * scan_.diagonal;
-    const double ratio = squared_distance / (tail * tail);
+    const double ratio = squared_distance / (tail_ * tail_);
     return std::min(1 + ratio * ratio, options_.most_lift);
   }
 
@@ -377,6 +383,7 @@ class Fitter {
   std::vector<std::vector<std::uint32_t>> colours_;
   double mean_edge_;
   double weight_unit_ = 0;
+  double tail_ = 0;  // model units
   SurfaceSamples forward_;
   std::vector<Vec3> normals_;
   std::vector<Location> locations_;  // of the scan's samples on the mesh
@@ -485,10 +492,42 @@ void slide_all(Fitter& fitter, CutMesh& cut, FeatureNet& net, const VertexConstr
       const auto distance_to = [&](const VertexOnLine& other) {
         return farthest_slide * (cut.mesh().vertices[other.vertex] - cut.mesh().vertices[at.vertex]).norm();
       };
-      fitter.slide(line, at.place, cut.copies(at.vertex), distance_to(line.vertices[(i + n - 1) % n]),
-                   distance_to(line.vertices[(i + 1) % n]));
+      const VertexOnLine &before = line.vertices[(i + n - 1) % n], &behind = line.vertices[(i + 1) % n];
+      const auto deviation = [&] {
+        return std::max(chord_deviation(line, before.place, at.place), chord_deviation(line, at.place, behind.place));
+      };
+      const double place = at.place, allowed = std::max(net.tolerance, deviation());
+      fitter.slide(line, at.place, cut.copies(at.vertex), distance_to(before), distance_to(behind));
+      if (deviation() <= allowed) continue;
+      at.place = place;
+      fitter.put(cut.copies(at.vertex), line.point_at(place));
     }
   }
+}
+
+// The rounds; after_sweep(round) moves what the sweeps leave alone.
+template <class AfterSweep>
+ShapeFitResult run_rounds(Fitter& fitter, double diagonal, const ShapeFitOptions& options, const Progress& progress,
+                          const AfterSweep& after_sweep) {
+  constexpr int first_dialled_round = 2;
+  constexpr double loosest = 0.01;
+  ShapeFitResult result;
+  result.fidelity_of_diagonal = options.fidelity_of_diagonal;
+  for (int round = 0; round < options.rounds; ++round) {
+    progress("shape and fit", static_cast<double>(round) / options.rounds);
+    const int dialled = round - first_dialled_round;
+    if (options.fidelity_of_residual && dialled >= 0 && dialled < options.rounds_of_dialling) {
+      result.fidelity_of_diagonal = std::clamp(*options.fidelity_of_residual * result.rms_distance / diagonal,
+                                               options.fidelity_of_diagonal, loosest);
+      fitter.set_fidelity(result.fidelity_of_diagonal);
+    }
+    fitter.locate_samples(result);
+    for (int s = 0; s < options.sweeps; ++s) {
+      result.largest_step = fitter.sweep();
+      after_sweep(round);
+    }
+  }
+  return result;
 }
 
 }  // namespace
@@ -497,13 +536,7 @@ ShapeFitResult optimise_shape_and_fit(SurfaceMesh& mesh, const ReferenceSurface&
                                       const Progress& progress) {
   check(mesh, scan, options);
   Fitter fitter(mesh, scan, options, {});
-  ShapeFitResult result;
-  for (int round = 0; round < options.rounds; ++round) {
-    progress("shape and fit", static_cast<double>(round) / options.rounds);
-    fitter.locate_samples(result);
-    for (int s = 0; s < options.sweeps; ++s) result.largest_step = fitter.sweep();
-  }
-  return result;
+  return run_rounds(fitter, scan.diagonal, options, progress, [](int) {});
 }
 
 ShapeFitResult optimise_shape_and_fit(SurfaceMesh& mesh, FeatureNet& net, const ReferenceSurface& scan,
@@ -513,15 +546,9 @@ ShapeFitResult optimise_shape_and_fit(SurfaceMesh& mesh, FeatureNet& net, const 
   CutMesh cut(mesh, net);
   const ShapeFitOptions cut_options = cut.options_for(options, scan);
   Fitter fitter(cut.mesh(), scan, cut_options, cut.patch_of_vertex());
-  ShapeFitResult result;
-  for (int round = 0; round < options.rounds; ++round) {
-    progress("shape and fit", static_cast<double>(round) / options.rounds);
-    fitter.locate_samples(result);
-    for (int s = 0; s < options.sweeps; ++s) {
-      result.largest_step = fitter.sweep();
-      if (round >= rounds_before_sliding) slide_all(fitter, cut, net, options.constraints);
-    }
-  }
+  const ShapeFitResult result = run_rounds(fitter, scan.diagonal, options, progress, [&](int round) {
+    if (round >= rounds_before_sliding) slide_all(fitter, cut, net, options.constraints);
+  });
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) mesh.vertices[v] = cut.mesh().vertices[v];
   return result;
 }

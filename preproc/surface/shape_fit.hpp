@@ -26,6 +26,11 @@ struct ShapeFitOptions {
   // triangles the mean edge ratio and the RMS distance (% of d) are 1.081 and 0.0167 for 0.0016, 1.093 and 0.0155 for
   // 0.0012, 1.104 and 0.0149 for 0.001.
   double fidelity_of_diagonal = 0.0012;
+  // Where set, q goes with what can be reached: from the third round on it is this times the RMS distance, between
+  // fidelity_of_diagonal and 0.01 of the diagonal, and the tail goes with it; set anew in so many rounds. What the
+  // triangles are too large for, or noise, no fit can follow: drawn to it hard, they only lose their shape.
+  std::optional<double> fidelity_of_residual;
+  int rounds_of_dialling = 1;
   // Times that all samples are located anew, at least 1. 5 for speed; after 8 the RMS distance falls by less than 1 %.
   int rounds = 8;
   // Gauss-Seidel sweeps between two locations; at least 1. More than 4 overfits to stale locations.
@@ -50,7 +55,8 @@ struct ShapeFitResult {
   double rms_distance = 0;
   double largest_distance = 0;
   std::size_t samples = 0;
-  double largest_step = 0;  // of a vertex, in the last sweep
+  double largest_step = 0;          // of a vertex, in the last sweep
+  double fidelity_of_diagonal = 0;  // that the last round had
 };
 
 // Connectivity stays. Precondition: a manifold mesh near the scan whose triangles have areas and are not inverted: eta

@@ -31,6 +31,9 @@ constexpr double fewest_faces = 4;
 // Over the wanted edge length.
 constexpr double longest_edge_to_contract = 1;
 
+// Of a scan with creases, over the result's mean edge.
+constexpr double longest_edge_of_part = 1.5;
+
 // Edge length of the first surface within a deviation, over the deviation.
 constexpr double first_edge = 12;
 
@@ -45,7 +48,7 @@ constexpr double fidelity_of_parts = 0.0003;
 constexpr double curve_tolerance = 0.00015;
 constexpr double noise_on_curves = 1.5;
 
-// Of the first fit, which finds out how near the triangles can come.
+// Of the fit, in which it finds out how near the triangles can come.
 constexpr int first_rounds = 2;
 
 // Of the edge lengths' renewal, over the local error (see error_factors).
@@ -173,24 +176,21 @@ Candidate by_lattice(Scan& scan, const SizingOptions& sizing, const FitPlan& pla
   candidate.mesh = std::move(lattice.mesh);
   candidate.net = std::move(lattice.net);
   ShapeFitOptions fit;
-  fit.rounds = first_rounds;
+  fit.rounds = first_rounds + plan.rounds;
   fit.fidelity_of_diagonal = plan.fidelity_of_diagonal;
+  fit.fidelity_of_residual = plan.fidelity_of_residual;
+  if (scan.has_features()) {
+    fit.fidelity_of_diagonal = fidelity_of_parts;
+    fit.lift_tail_of_diagonal = *fit.lift_tail_of_diagonal * fidelity_of_parts / plan.fidelity_of_diagonal;
+    fit.rounds_of_dialling = plan.rounds;
+  }
   fit.nearest_vertex_of_scan_vertex = std::move(lattice.vertex_of_scan_vertex);
-  const ShapeFitResult first = optimise_shape_and_fit(candidate.mesh, candidate.net, scan.reference(), fit, progress);
-
-  // What the triangles are too large for, or noise, no fit can follow: drawn to it hard, they only lose their shape.
-  const double least_fidelity = scan.has_features() ? fidelity_of_parts : plan.fidelity_of_diagonal;
-  fit.fidelity_of_diagonal =
-      std::clamp(plan.fidelity_of_residual * first.rms_distance / scan.reference().diagonal, least_fidelity, 0.01);
-  fit.lift_tail_of_diagonal = *fit.lift_tail_of_diagonal * fit.fidelity_of_diagonal / plan.fidelity_of_diagonal;
-  fit.rounds = plan.rounds;
-  if (!scan.has_features()) fit.nearest_vertex_of_scan_vertex.reset();
   candidate.fit = optimise_shape_and_fit(candidate.mesh, candidate.net, scan.reference(), fit, progress);
   GuardOptions guard;
   // On parts with edges, not much looser than the fit: what is plane stays plane.
   if (scan.has_features()) {
-    guard.fidelity_of_diagonal = fit.fidelity_of_diagonal;
-    guard.loosest_fidelity_of_diagonal = 3 * fit.fidelity_of_diagonal;
+    guard.fidelity_of_diagonal = candidate.fit.fidelity_of_diagonal;
+    guard.loosest_fidelity_of_diagonal = 2 * candidate.fit.fidelity_of_diagonal;
   }
   finish(candidate, scan, guard, progress);
   return candidate;
@@ -420,7 +420,7 @@ Candidate make_surface_within(Scan& scan, const LargestDeviation& wanted, const 
   }
   // The deviation that was asked for comes before the tetrahedra.
   Candidate opened = best;
-  if (options.method == SimplifyMethod::lattice && open_wedges(opened, scan)) {
+  if (options.method == SimplifyMethod::lattice && !scan.has_creases() && open_wedges(opened, scan)) {
     const double reached = bound_deviation(opened.mesh, scan.mesh, {.limit = wanted.distance}).upper();
     if (!wanted.required || reached <= wanted.distance) {
       best = std::move(opened);
@@ -465,10 +465,19 @@ SimplifyResult simplify(const SurfaceMesh& mesh, SurfaceMesh& surface, const Sim
   }
   result.feature_edges = features.edges.size();
   result.features = lines_of(mesh, features.edges);
-  if (!options.given_features)
-    features.edges = select_features(mesh, std::move(features.edges), typical_edge(options.size, mesh));
-  Scan scan(mesh, std::move(features.edges),
-            std::max(curve_tolerance * bounding_box(mesh.vertices).diagonal(), noise_on_curves * features.noise));
+  const double edge = typical_edge(options.size, mesh);
+  if (!options.given_features) features.edges = select_features(mesh, std::move(features.edges), edge);
+  const double tolerance =
+      std::max(curve_tolerance * bounding_box(mesh.vertices).diagonal(), noise_on_curves * features.noise);
+  // Faces of CAD are far larger than the result's; searches for what is near want them alike.
+  SurfaceMesh parted;
+  if (!features.edges.empty()) {
+    parted = mesh;
+    std::vector<double> length(mesh.vertices.size(), edge);
+    halve_long_edges(parted, length, features.edges, longest_edge_of_part, longest_edge_of_part);
+  }
+  const SurfaceMesh& whole = features.edges.empty() ? mesh : parted;
+  Scan scan(whole, std::move(features.edges), tolerance);
   result.faces_before = mesh.triangles.size();
   if (const auto* bound = std::get_if<LargestDeviation>(&options.size)) {
     require_positive(bound->distance, "the deviation");
@@ -492,7 +501,7 @@ SimplifyResult simplify(const SurfaceMesh& mesh, SurfaceMesh& surface, const Sim
     Candidate candidate = make_surface(scan, sizing, options, options.effort, result, progress);
     if (result.method == SimplifyMethod::lattice)
       lower_worst(candidate, scan, plan_of(options.effort).rounds_for_worst, result, progress);
-    if (options.method == SimplifyMethod::lattice) open_wedges(candidate, scan);
+    if (options.method == SimplifyMethod::lattice && !scan.has_creases()) open_wedges(candidate, scan);
     surface = std::move(candidate.mesh);
   }
   return result;

@@ -18,6 +18,9 @@ namespace {
 
 constexpr double equilateral_area = 0.43301270189221932;  // sqrt(3)/4, of edge length 1
 
+// Radii above so many edge lengths count as flat.
+constexpr double flat_radius = 20;
+
 // What all steps read of the scan.
 struct Scan {
   explicit Scan(const SurfaceMesh& surface) : mesh(surface), areas(surface.vertices.size(), 0.0) {
@@ -131,8 +134,8 @@ std::vector<double> log_length_from_curvature(const Scan& scan, double uniform_l
   std::vector<double> sorted = curvature2;
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
   std::nth_element(sorted.begin(), middle, sorted.end());
-  // On a part that is mostly flat the median is zero: radii above 20 edge lengths count as flat.
-  const double offset = std::max(*middle, 0.0025 / (uniform_length * uniform_length));
+  // On a part that is mostly flat the median is zero.
+  const double offset = std::max(*middle, 1 / std::pow(flat_radius * uniform_length, 2));
   std::vector<double> phi(curvature2.size());
   for (std::size_t v = 0; v < phi.size(); ++v) phi[v] = -0.5 * strength * std::log(curvature2[v] + offset);
   return phi;
