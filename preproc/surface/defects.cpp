@@ -1,5 +1,6 @@
 #include "preproc/surface/defects.hpp"
 
+#include "preproc/surface/cut_surface.hpp"
 #include "preproc/surface/nearest_vertices.hpp"
 
 #include <algorithm>
@@ -34,22 +35,27 @@ double smallest_angle_deg(const Vec3& a, const Vec3& b, const Vec3& c) {
   return std::min({angle(a, b, c), angle(b, c, a), angle(c, a, b)}) * 180 / std::numbers::pi;
 }
 
-std::vector<std::uint32_t> scan_vertices_of_faces(const SurfaceMesh& mesh, const ReferenceSurface& scan,
-                                                  const std::vector<std::uint32_t>& patch_of_face) {
+std::vector<std::uint32_t> scan_vertices_of_faces(const SurfaceMesh& mesh, const ReferenceSurface& scan) {
+  return scan_vertices_of_faces(mesh, FeatureNet{}, scan);
+}
+
+std::vector<std::uint32_t> scan_vertices_of_faces(const SurfaceMesh& mesh, const FeatureNet& net,
+                                                  const ReferenceSurface& scan) {
+  const CutSurface cut = cut_along(mesh, edges_of(net));
   // The mean of the corners' normals: where a single face is inverted it still tells the side.
-  const std::vector<Vec3> at_vertices = vertex_normals(mesh);
+  const std::vector<Vec3> at_vertices = vertex_normals(cut.mesh);
   std::vector<Vec3> centroids;
   std::vector<Vec3> normals;
   centroids.reserve(mesh.triangles.size());
   normals.reserve(mesh.triangles.size());
-  for (const Triangle& t : mesh.triangles) {
-    centroids.push_back((mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3);
-    normals.push_back(at_vertices[t[0]] + at_vertices[t[1]] + at_vertices[t[2]]);
+  for (const Triangle& t : cut.mesh.triangles) {
+    centroids.push_back((cut.mesh.vertices[t[0]] + cut.mesh.vertices[t[1]] + cut.mesh.vertices[t[2]]) / 3);
+    normals.push_back((at_vertices[t[0]] + at_vertices[t[1]] + at_vertices[t[2]]).normalized());
   }
   const double spacing = std::sqrt(scan.area / static_cast<double>(mesh.triangles.size()));
-  return patch_of_face.empty()
-             ? nearest_vertices(centroids, normals, scan.mesh, spacing)
-             : nearest_vertices_of_patch(centroids, normals, patch_of_face, scan.mesh, scan.patch_of_vertex, spacing);
+  return net.empty() ? nearest_vertices(centroids, normals, scan.mesh, spacing)
+                     : nearest_vertices_of_patch(centroids, normals, net.patch_of_face, scan.mesh, scan.patch_of_vertex,
+                                                 spacing);
 }
 
 SurfaceDefects find_defects(const SurfaceMesh& mesh, const ReferenceSurface& scan,

@@ -1,6 +1,7 @@
 // What must not be wrong with a surface that a volume mesher gets.
 #pragma once
 
+#include "preproc/surface/feature_net.hpp"
 #include "preproc/surface/reference_surface.hpp"
 #include "quality/self_intersections.hpp"
 
@@ -20,10 +21,11 @@ struct SurfaceDefects {
   bool meshable() const { return crossings.empty() && inverted.empty(); }
 };
 
-// Per face of `mesh`, the vertex of the scan nearest to its centroid on the same side of the body; where
-// `patch_of_face` is not empty (see FeatureNet), on its patch.
-std::vector<std::uint32_t> scan_vertices_of_faces(const SurfaceMesh& mesh, const ReferenceSurface& scan,
-                                                  const std::vector<std::uint32_t>& patch_of_face = {});
+// Per face of `mesh`, the vertex of the scan nearest to its centroid on the same side of the body and, with features, on
+// its own patch and side of each line.
+std::vector<std::uint32_t> scan_vertices_of_faces(const SurfaceMesh& mesh, const ReferenceSurface& scan);
+std::vector<std::uint32_t> scan_vertices_of_faces(const SurfaceMesh& mesh, const FeatureNet& net,
+                                                  const ReferenceSurface& scan);
 
 // A face counts as inverted if its normal opposes the scan's everywhere within an edge length of its centroid: where
 // the scan turns over in less than that, as in the folds of an ear, no face can follow it and none is wrong. `near`:

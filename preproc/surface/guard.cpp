@@ -76,7 +76,8 @@ void refit(SurfaceMesh& mesh, FeatureNet& net, const ReferenceSurface& scan, con
 void mend(SurfaceMesh& mesh, FeatureNet& net, const ReferenceSurface& scan, const SurfaceDefects& defects, int round,
           const GuardOptions& options, const std::vector<std::uint32_t>& near,
           const std::optional<std::vector<std::uint32_t>>& nearest_to_scan) {
-  std::vector<bool> movable = vertices_around(mesh, faces_of(defects), rings_of_repair + round / 2);
+  const std::vector<bool> region = vertices_around(mesh, faces_of(defects), rings_of_repair + round / 2);
+  std::vector<bool> movable = region;
   remove_fixed(movable, options.constraints);
   if (!defects.meshable()) {
     // Only what is tangled is smoothed: the fit alone serves small angles better.
@@ -91,7 +92,8 @@ void mend(SurfaceMesh& mesh, FeatureNet& net, const ReferenceSurface& scan, cons
   } else if (round > 0) {
     flip_worst(mesh, scan, near, movable);
   }
-  refit(mesh, net, scan, movable,
+  // Vertices on lines may slide.
+  refit(mesh, net, scan, net.empty() ? movable : region,
         std::min(options.loosest_fidelity_of_diagonal, options.fidelity_of_diagonal * std::pow(1.5, round + 1)),
         nearest_to_scan);
   // Last, since the fit pulls crossing sheets back to where they crossed.
@@ -123,7 +125,7 @@ GuardResult guard_surface(SurfaceMesh& mesh, const FeatureNet& given_net, const 
   }
   if (options.keep_volume) preserve_volume(mesh, scan.whole, options.constraints);
   GuardResult result;
-  std::vector<std::uint32_t> near = scan_vertices_of_faces(mesh, scan, net.patch_of_face);
+  std::vector<std::uint32_t> near = scan_vertices_of_faces(mesh, net, scan);
   const auto find = [&] {
     SurfaceDefects defects = find_defects(mesh, scan, near, options.least_angle_deg);
     drop_own_angles(defects, mesh, lines, options.least_angle_deg);
@@ -145,7 +147,7 @@ GuardResult guard_surface(SurfaceMesh& mesh, const FeatureNet& given_net, const 
     progress("guard", static_cast<double>(result.rounds) / options.rounds);
     mend(mesh, net, scan, now, result.rounds, options, near, nearest_to_scan);
     if (options.keep_volume) preserve_volume(mesh, scan.whole, options.constraints);
-    near = scan_vertices_of_faces(mesh, scan, net.patch_of_face);
+    near = scan_vertices_of_faces(mesh, net, scan);
     now = find();
     ++rounds_without_gain;
     if (is_better(now, result.after)) {
