@@ -2,11 +2,13 @@
 
 #include "analytic_meshes.hpp"
 #include "preproc/mesh/error.hpp"
+#include "preproc/surface/features.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace scan2fea {
 namespace {
@@ -117,6 +119,21 @@ TEST(Guard, RefusesOptionsOutOfRange) {
   GuardOptions options;
   options.least_angle_deg = 60;
   EXPECT_THROW(guard_surface(mesh, ReferenceSurface(scan), options), WrongUsage);
+}
+
+TEST(Defects, NoFaceIsInvertedBesideACreaseThatEndsInsideItsPatch) {
+  // A fold of 120 degrees that fades out: both of its sides are one patch, and their normals oppose one another.
+  SurfaceMesh fold = analytic::sheet(20, 10, 0.5);
+  for (Vec3& v : fold.vertices) {
+    const double half = (120 - 12 * v[1]) * std::numbers::pi / 360;
+    v = {(v[0] - 10) * std::cos(half), v[1], -std::abs(v[0] - 10) * std::sin(half)};
+  }
+  const SurfaceMesh measured = analytic::noisy(fold, 0.02, 1);
+  const FeatureScan features(measured, find_features(fold).edges, 0.01);
+  ASSERT_FALSE(features.sharp.empty());
+  const ReferenceSurface scan(features);
+  const std::vector<std::uint32_t> patches(fold.triangles.size(), 0);
+  EXPECT_TRUE(find_defects(fold, scan, scan_vertices_of_faces(fold, scan, patches), 0).inverted.empty());
 }
 
 }  // namespace

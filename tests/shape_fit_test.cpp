@@ -2,6 +2,8 @@
 
 #include "analytic_meshes.hpp"
 #include "preproc/mesh/error.hpp"
+#include "preproc/surface/features.hpp"
+#include "preproc/surface/lattice.hpp"
 #include "preproc/surface/locate.hpp"
 #include "preproc/surface/sample_surface.hpp"
 #include "preproc/surface/star_objective.hpp"
@@ -194,6 +196,40 @@ TEST_F(NoisySphere, RefusesOptionsOutOfRange) {
   ShapeFitOptions options;
   options.fidelity_of_diagonal = 0;
   EXPECT_THROW(optimise_shape_and_fit(mesh, scan, options), WrongUsage);
+}
+
+TEST(ShapeFit, VerticesSlideAlongLinesButChordsStayNear) {
+  const SurfaceMesh scan = analytic::cylinder(1, 2, 120, 60);
+  const FeatureScan features(scan, find_features(scan).edges, 0.001);
+  LatticeOptions options;
+  options.sizing.triangles = 3000;
+  LatticeResult lattice = remesh_by_lattice(features, options);
+  ASSERT_EQ(lattice.net.lines.size(), 2U);
+  const auto largest_deviation = [](const FeatureLine& line) {
+    double largest = 0;
+    for (std::size_t i = 0; i < line.vertices.size(); ++i)
+      largest = std::max(
+          largest, chord_deviation(line, line.vertices[i].place, line.vertices[(i + 1) % line.vertices.size()].place));
+    return largest;
+  };
+  // Uneven to begin with, so that there is something to gain.
+  for (FeatureLine& line : lattice.net.lines)
+    for (std::size_t i = 0; i < line.vertices.size(); i += 2) {
+      line.vertices[i].place = std::min(line.vertices[i].place + 0.6, 120.0);
+      lattice.mesh.vertices[line.vertices[i].vertex] = line.point_at(line.vertices[i].place);
+    }
+  const std::vector<FeatureLine> before = lattice.net.lines;
+  optimise_shape_and_fit(lattice.mesh, lattice.net, ReferenceSurface(features));
+  for (std::size_t l = 0; l < before.size(); ++l) {
+    const FeatureLine& line = lattice.net.lines[l];
+    EXPECT_LE(largest_deviation(line), std::max(largest_deviation(before[l]), lattice.net.tolerance) + 1e-9);
+    bool moved = false;
+    for (std::size_t i = 0; i < line.vertices.size(); ++i) {
+      moved = moved || line.vertices[i].place != before[l].vertices[i].place;
+      EXPECT_EQ(lattice.mesh.vertices[line.vertices[i].vertex], line.point_at(line.vertices[i].place));
+    }
+    EXPECT_TRUE(moved);
+  }
 }
 
 }  // namespace

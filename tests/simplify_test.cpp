@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -153,6 +154,23 @@ TEST(Simplify, DeviationOutOfReachIsAnErrorOnlyWhereRequired) {
   SimplifyOptions options;
   options.size = LargestDeviation{.distance = 1e-3};
   EXPECT_THROW(simplify(mesh, options), NotMeshable);
+}
+
+TEST(Simplify, KeepsTheCreasesOfAPartOfFewFacets) {
+  // A disc of 24 facets, each many times as large as the triangles.
+  SurfaceMesh mesh = analytic::cylinder(1, 0.5, 24, 1);
+  const SimplifyResult result = simplify_to(mesh, FaceCount{4000});
+  EXPECT_EQ(result.fallback_reason, "");
+  EXPECT_EQ(result.feature_remark, "");
+  EXPECT_EQ(result.feature_edges, 48U);
+  // The rims' corners are there.
+  for (int i = 0; i < 24; ++i) {
+    const double angle = std::numbers::pi * i / 12;
+    double nearest = 1;
+    for (const Vec3& v : mesh.vertices)
+      nearest = std::min(nearest, (v - Vec3(std::cos(angle), std::sin(angle), 0)).norm());
+    EXPECT_LT(nearest, 0.01);
+  }
 }
 
 }  // namespace
