@@ -75,6 +75,11 @@ SurfaceMesh slab_with_holes(int genus, double edge_length) {
                        [n](int x, int y, int) { return (x / n) % 2 == 0 || (y / n) != 1; });
 }
 
+SurfaceMesh block_with_fin(double edge_length) {
+  return voxel_surface({24, 8, 10}, edge_length * Vec3(1, 1, 0.625),
+                       [](int x, int, int z) { return z == 0 || x < 6; });
+}
+
 SurfaceMesh plate(const Vec3& size, double edge_length) {
   const auto columns = static_cast<std::uint32_t>(std::round(size.x() / edge_length));
   const auto rows = static_cast<std::uint32_t>(std::round(size.y() / (edge_length * std::numbers::sqrt3 / 2)));

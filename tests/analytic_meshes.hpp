@@ -9,6 +9,9 @@ namespace scan2fea::analytic {
 // triangles.
 SurfaceMesh box(const Vec3& size, double edge_length);
 
+// A cube of 6 edges on the end of a fin 24 edges long, 8 wide and 0.625 thin: thick and thin in one part.
+SurfaceMesh block_with_fin(double edge_length);
+
 // A plate of near-equilateral triangles, thinner than its edges are long: rows of triangles over the faces, shifted by
 // half a triangle from row to row and from one face to the other, one row along the sides. Vertices exactly on the
 // edges; about 40 degrees at the least.

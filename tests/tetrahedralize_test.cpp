@@ -1,10 +1,12 @@
 #include "preproc/volume/tetrahedralize.hpp"
 
 #include "preproc/mesh/error.hpp"
+#include "quality/tetrahedron_measures.hpp"
 #include "tests/analytic_meshes.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include <filesystem>
 #include <fstream>
@@ -115,6 +117,30 @@ TEST(Tetrahedralize, TellsTheCountBeforehandWithinAFifth) {
 TEST(Tetrahedralize, ThinWallsAreLeftToTetGen) {
   EXPECT_EQ(tetrahedralize(analytic::box({20, 20, 0.5}, 1)).interior, InteriorPoints::tetgen);
   EXPECT_EQ(tetrahedralize(analytic::box({3, 3, 3}, 0.5)).interior, InteriorPoints::lattice);
+}
+
+TEST(Tetrahedralize, PartsThickAndThinAreGoodInBoth) {
+  const SurfaceMesh surface = analytic::block_with_fin(1);
+  TetrahedralizeOptions options;
+  const TetrahedralizeResult result = tetrahedralize(surface, options);
+  EXPECT_EQ(result.interior, InteriorPoints::lattice);
+  expect_valid(surface, result.mesh);
+  const auto count = static_cast<double>(result.mesh.tetrahedra.size());
+  EXPECT_NEAR(static_cast<double>(result.estimated_tetrahedra), count, 0.2 * count);
+  options.interior = InteriorPoints::tetgen;
+  EXPECT_GE(measure_tetrahedra(result.mesh).min_dihedral_deg,
+            0.9 * measure_tetrahedra(tetrahedralize(surface, options).mesh).min_dihedral_deg);
+}
+
+TEST(Tetrahedralize, SameBytesForAnyNumberOfThreads) {
+  const SurfaceMesh surface = analytic::noisy(analytic::sphere(1, 4), 0.004, 1);
+  std::vector<TetMesh> meshes;
+  for (const std::size_t threads : {1, 2, 5}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    meshes.push_back(tetrahedralize(surface).mesh);
+    EXPECT_EQ(meshes.back().tetrahedra, meshes.front().tetrahedra);
+    EXPECT_EQ(meshes.back().nodes, meshes.front().nodes);
+  }
 }
 
 TEST(Tetrahedralize, WithoutTimeToOptimiseTheMeshIsValid) {

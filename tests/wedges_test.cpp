@@ -65,15 +65,42 @@ TEST(Wedges, OfTheScanItselfAreLeftAlone) {
   EXPECT_EQ(mesh.vertices, before.vertices);
 }
 
-TEST(Wedges, FixedVerticesStay) {
+TEST(Wedges, HeldEdgesAreAsSharpAsMeant) {
   const SurfaceMesh scan = analytic::sphere(1, 4);
   SurfaceMesh mesh = ridged_sphere();
   const SurfaceMesh before = mesh;
   WedgeOptions options;
   options.constraints.assign(mesh.vertices.size(), VertexConstraint::fixed);
   const WedgeResult result = open_wedges(mesh, ReferenceSurface(scan), options);
-  EXPECT_EQ(result.after, result.before);
-  EXPECT_LT(result.sharpest_deg, options.least_dihedral_deg);
+  EXPECT_EQ(result.after, 0u);
+  EXPECT_EQ(mesh.vertices, before.vertices);
+}
+
+// A plate in which one vertex of the upper sheet hangs close over one of the lower.
+TEST(ThinPlaces, AreThickenedWhereTheyAreFew) {
+  const Vec3 size(6, 6, 0.45);
+  const SurfaceMesh scan = analytic::box(size, 0.25);
+  SurfaceMesh mesh = analytic::box(size, 0.5);
+  const auto above = std::find(mesh.vertices.begin(), mesh.vertices.end(), Vec3(3, 3, 0.45));
+  const auto below = std::find(mesh.vertices.begin(), mesh.vertices.end(), Vec3(3, 3, 0));
+  ASSERT_TRUE(above != mesh.vertices.end() && below != mesh.vertices.end());
+  above->z() = 0.15;
+  WedgeOptions options;
+  options.least_angle_deg = 0;  // right-angled triangles lose a little
+  const WedgeResult result = open_wedges(mesh, ReferenceSurface(scan), options);
+  EXPECT_GT(result.before, 0u);
+  EXPECT_EQ(result.after, 0u);
+  EXPECT_GE((*above - *below).norm(), options.least_wall * 0.5);
+  EXPECT_TRUE(find_self_intersections(mesh).empty());
+  EXPECT_NEAR(enclosed_volume(mesh) / enclosed_volume(scan), 1, 1e-12);
+}
+
+TEST(ThinPlaces, OfAThinBodyAreLeftAlone) {
+  const SurfaceMesh scan = analytic::box({6, 6, 0.15}, 0.25);
+  SurfaceMesh mesh = analytic::box({6, 6, 0.15}, 0.5);
+  const SurfaceMesh before = mesh;
+  const WedgeResult result = open_wedges(mesh, ReferenceSurface(scan));
+  EXPECT_EQ(result.before, 0u);
   EXPECT_EQ(mesh.vertices, before.vertices);
 }
 

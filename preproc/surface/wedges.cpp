@@ -29,6 +29,7 @@ constexpr double margin = 2 * degree;
 constexpr double weight_of_angle = 400, weight_of_way = 1;
 // In edges: how far around its middle the scan is searched, and how much of a crease there must be.
 constexpr double crease_reach = 2, least_crease = 2;
+constexpr double most_near = 0.01;                            // of the vertices
 constexpr double longest_step = 0.1, negligible_step = 1e-3;  // of the edges around
 
 // Interior dihedral angle in radians, (0, 2 pi), at the edge from a to b of the triangle a, b, c whose neighbour has
@@ -99,9 +100,50 @@ std::optional<double> scan_crease(const ReferenceSurface& scan, std::uint32_t st
   return sum / length;
 }
 
+// Two vertices of a surface with nothing but a thin piece of the body between them.
+struct NearPair {
+  std::uint32_t vertex, other;
+  double distance, wanted;
+
+  bool lacks() const { return distance < wanted; }
+};
+
+// Each vertex with the nearest across the body, where they lie within twice the distance wanted.
+std::vector<NearPair> find_near_pairs(const SurfaceMesh& mesh, const VertexStars& stars, const WedgeOptions& options) {
+  const std::vector<Vec3> normals = vertex_normals(mesh);
+  std::vector<Vec3> opposite;
+  for (const Vec3& n : normals) opposite.push_back(-n);
+  const double edge =
+      std::sqrt(4 / std::numbers::sqrt3 * surface_area(mesh) / static_cast<double>(mesh.triangles.size()));
+  const std::vector<std::uint32_t> nearest = nearest_vertices(mesh.vertices, opposite, mesh, edge);
+  std::vector<NearPair> pairs;
+  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
+    const std::uint32_t w = nearest[v];
+    const Vec3 across = mesh.vertices[w] - mesh.vertices[v];
+    if (!(across.dot(normals[v]) < 0) || !(across.dot(normals[w]) > 0)) continue;
+    double sum = 0;
+    bool adjacent = false;
+    for (const std::uint32_t corner : stars.corners(v)) {
+      const std::uint32_t next = mesh.triangles[corner / 3][(corner + 1) % 3];
+      sum += (mesh.vertices[next] - mesh.vertices[v]).norm();
+      adjacent = adjacent || next == w;
+    }
+    const double wanted = options.least_wall * sum / static_cast<double>(stars.corners(v).size());
+    if (!adjacent && across.norm() < 2 * wanted) pairs.push_back({v, w, across.norm(), wanted});
+  }
+  return pairs;
+}
+
+template <class Defect>
+std::size_t lacking(const std::vector<Defect>& defects) {
+  return static_cast<std::size_t>(
+      std::count_if(defects.begin(), defects.end(), [](const Defect& d) { return d.lacks(); }));
+}
+
 class Opening {
  public:
-  Opening(SurfaceMesh& mesh, const std::vector<Wedge>& wedges, const WedgeOptions& options)
+  Opening(SurfaceMesh& mesh, const std::vector<Wedge>& wedges, const std::vector<NearPair>& near,
+          const WedgeOptions& options)
       : mesh_(mesh),
         stars_(mesh),
         neighbours_(face_neighbours(mesh, stars_)),
@@ -113,6 +155,15 @@ class Opening {
       for (std::size_t k = 0; k < 3; ++k)
         if (neighbours_[w.other][k] == w.face) wanted_[3 * w.other + k] = w.wanted_deg * degree;
     }
+    for (const NearPair& pair : near) {
+      for (const std::uint32_t v : {pair.vertex, pair.other})
+        if (pair.lacks())
+          for (const std::uint32_t corner : stars_.corners(v)) faces.push_back(corner / 3);
+      near_.push_back({pair.vertex, pair.other, pair.wanted});
+      near_.push_back({pair.other, pair.vertex, pair.wanted});
+    }
+    std::sort(near_.begin(), near_.end(),
+              [](const Keep& a, const Keep& b) { return std::pair(a.vertex, a.other) < std::pair(b.vertex, b.other); });
     const std::vector<bool> movable = vertices_around(mesh, faces, rings_moved);
     for (std::uint32_t v = 0; v < movable.size(); ++v)
       if (movable[v] && (options.constraints.empty() || options.constraints[v] == VertexConstraint::free))
@@ -162,6 +213,16 @@ class Opening {
       add_lack(face, (k + 2) % 3, &Dihedral::by_a);  // from v on; the edge towards v is its neighbour's from v on
     }
     const double edge = sum / static_cast<double>(corners.size());
+    for (auto pair = std::lower_bound(near_.begin(), near_.end(), v,
+                                      [](const Keep&k, std::uint32_t vertex) { return k.vertex < vertex; });
+         pair != near_.end() && pair->vertex == v; ++pair) {
+      const Vec3 apart = place - mesh_.vertices[pair->other];
+      const double lack = (1 + margin) * pair->distance - apart.norm();
+      if (!(lack > 0)) continue;
+      const Vec3 direction = apart.normalized();
+      gradient -= 2 * weight_of_angle / (edge * edge) * lack * direction;
+      hessian += 2 * weight_of_angle / (edge * edge) * direction * direction.transpose();
+    }
     gradient += 2 * weight_of_way / (edge * edge) * (place - given);
     hessian.diagonal().array() += 2 * weight_of_way / (edge * edge);
     Vec3 way = -hessian.llt().solve(gradient);
@@ -175,6 +236,11 @@ class Opening {
   VertexStars stars_;
   std::vector<Triangle> neighbours_;
   std::vector<double> wanted_;  // by face and side, radians
+  struct Keep {
+    std::uint32_t vertex, other;
+    double distance;
+  };
+  std::vector<Keep> near_;  // both ways, by vertex
   std::vector<std::uint32_t> moved_;
   std::vector<Vec3> given_;
 };
@@ -186,11 +252,6 @@ double smallest_angle_around(const SurfaceMesh& mesh, std::uint32_t v, const Ver
     least = std::min(least, smallest_angle_deg(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]));
   }
   return least;
-}
-
-std::size_t sharper_than_wanted(const std::vector<Wedge>& wedges) {
-  return static_cast<std::size_t>(
-      std::count_if(wedges.begin(), wedges.end(), [](const Wedge& w) { return w.lacks(); }));
 }
 
 // Moved vertices in groups that share no triangle, each known by its first vertex.
@@ -243,11 +304,14 @@ WedgeResult open_wedges(SurfaceMesh& mesh, const ReferenceSurface& scan, const W
   if (!options.constraints.empty())
     std::erase_if(wedges, [&](const Wedge& w) { return is_fixed(w, 1) && is_fixed(w, 2); });
   WedgeResult result;
-  result.before = result.after = sharper_than_wanted(wedges);
+  std::vector<NearPair> near = find_near_pairs(mesh, VertexStars(mesh), options);
+  // Where many are near, the body is a thin wall, and must be.
+  if (static_cast<double>(lacking(near)) > most_near * static_cast<double>(mesh.vertices.size())) near.clear();
+  result.before = result.after = lacking(wedges) + lacking(near);
   if (result.before == 0) return result;
 
   const SurfaceMesh whole = mesh;
-  Opening opening(mesh, wedges, options);
+  Opening opening(mesh, wedges, near, options);
   const std::vector<std::uint32_t>& moved = opening.moved();
   UnionFind groups = group(mesh, moved);
   std::vector<double> least_before(mesh.vertices.size(), 180), least_after = least_before;
@@ -288,7 +352,9 @@ WedgeResult open_wedges(SurfaceMesh& mesh, const ReferenceSurface& scan, const W
     if (!find_self_intersections(mesh).empty()) mesh = whole;
   }
   const std::vector<Wedge> left = find_wedges(mesh, scan, options.least_dihedral_deg);
-  result.after = sharper_than_wanted(left);
+  result.after = lacking(left);
+  for (const NearPair& pair : near)
+    if ((mesh.vertices[pair.vertex] - mesh.vertices[pair.other]).norm() < pair.wanted) ++result.after;
   for (const Wedge& w : left)
     if (w.lacks()) result.sharpest_deg = std::min(result.sharpest_deg, w.angle_deg);
   return result;

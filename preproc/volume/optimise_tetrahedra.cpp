@@ -24,8 +24,8 @@ constexpr int relocation_steps = 8;
 
 // New vertices over elements at the start. A sound surface asks for a hundredth; one of needles would have insertion
 // fill it with ever smaller elements for ever smaller gains.
-constexpr double most_insertions = 0.1;
-constexpr std::size_t insertions_at_least = 50;  // on small meshes
+constexpr double most_insertions = 0.025;
+constexpr std::size_t insertions_at_least = 20;  // on small meshes
 
 // What was tried on an element without success since it or a neighbour last changed.
 constexpr std::uint32_t tried_topology = 1, tried_insertion = 2, tried_relocation = 4;

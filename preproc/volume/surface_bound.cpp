@@ -12,9 +12,11 @@
 namespace scan2fea {
 namespace {
 
+constexpr double degrees = 180 / std::numbers::pi;
+
 // A side of a triangle: from `tail` to `head` as the triangle turns.
 struct Side {
-  std::uint32_t tail, head, apex, triangle;
+  std::uint32_t tail, head, apex, triangle, number;
   auto key() const { return std::tuple(std::min(tail, head), std::max(tail, head), triangle); }
 };
 
@@ -22,12 +24,26 @@ std::vector<Side> sides(const SurfaceMesh& surface) {
   std::vector<Side> result;
   result.reserve(surface.triangles.size() * 3);
   for (std::uint32_t i = 0; i < surface.triangles.size(); ++i)
-    for (std::size_t k = 0; k < 3; ++k) {
+    for (std::uint32_t k = 0; k < 3; ++k) {
       const Triangle& t = surface.triangles[i];
-      result.push_back({t[k], t[(k + 1) % 3], t[(k + 2) % 3], i});
+      result.push_back({t[k], t[(k + 1) % 3], t[(k + 2) % 3], i, k});
     }
   std::sort(result.begin(), result.end(), [](const Side& a, const Side& b) { return a.key() < b.key(); });
   return result;
+}
+
+// Where the body lies between two triangles, radians, (0, 2 pi).
+double interior_angle(const SurfaceMesh& surface, const Side& first, const Side& second) {
+  const Vec3 n = area_vector(surface, surface.triangles[first.triangle]);
+  const Vec3 m = area_vector(surface, surface.triangles[second.triangle]);
+  const Vec3 along = (surface.vertices[first.head] - surface.vertices[first.tail]).normalized();
+  return std::numbers::pi - std::atan2(n.cross(m).dot(along), n.dot(m));
+}
+
+// Of a tetrahedron a, b, c, d at its edge from a to b, radians.
+double dihedral(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  const Vec3 n = (b - a).cross(c - a), m = (b - a).cross(d - a);
+  return std::atan2(n.cross(m).norm(), n.dot(m));
 }
 
 // Of a triangle's side: the height over it, over the longer of the other two sides.
@@ -37,24 +53,64 @@ double slenderness(const SurfaceMesh& surface, const Side& side) {
   return height / std::max((c - a).norm(), (c - b).norm());
 }
 
+// Of one element or of several that share the angle.
 struct EdgeBound {
   double min_dihedral_deg, scaled_jacobian;
 };
 
-std::optional<EdgeBound> convex_edge_bound(const SurfaceMesh& surface, const Side& first, const Side& second) {
-  const auto& p = surface.vertices;
-  const Vec3 n = area_vector(surface, surface.triangles[first.triangle]);
-  const Vec3 m = area_vector(surface, surface.triangles[second.triangle]);
-  const Vec3 along = (p[first.head] - p[first.tail]).normalized();
-  const double turn = std::atan2(n.cross(m).dot(along), n.dot(m));  // positive where convex
-  if (!(turn > 0)) return std::nullopt;
-  const double half = (std::numbers::pi - turn) / 2;
-  const double jacobian =
-      std::numbers::sqrt2 * std::sin(half) * std::max(slenderness(surface, first), slenderness(surface, second));
-  const TetShape filled = measure_tetrahedron(p[first.tail], p[first.apex], p[first.head], p[second.apex]);
-  return EdgeBound{std::max(half * 180 / std::numbers::pi, filled.min_dihedral_deg),
-                   std::max(jacobian, filled.scaled_jacobian)};
-}
+class ConvexEdges {
+ public:
+  explicit ConvexEdges(const SurfaceMesh& surface)
+      : surface_(surface), sides_(sides(surface)), angle_(3 * surface.triangles.size(), 0) {
+    for_each_edge([&](const Side& first, const Side& second) {
+      angle_[3 * first.triangle + first.number] = angle_[3 * second.triangle + second.number] =
+          interior_angle(surface, first, second);
+    });
+  }
+
+  template <class Visit>
+  void for_each_edge(Visit visit) const {
+    for (std::size_t i = 0; i + 1 < sides_.size(); ++i)
+      if (sides_[i].tail == sides_[i + 1].head && sides_[i].head == sides_[i + 1].tail) visit(sides_[i], sides_[i + 1]);
+  }
+
+  // Nothing where the edge is not convex.
+  std::optional<EdgeBound> bound(const Side& first, const Side& second) const {
+    const double angle = angle_[3 * first.triangle + first.number];
+    if (!(angle < std::numbers::pi)) return std::nullopt;
+    const double half = angle / 2;
+    const double jacobian =
+        std::numbers::sqrt2 * std::sin(half) * std::max(slenderness(surface_, first), slenderness(surface_, second));
+    const EdgeBound filled = bound_of_one(first, second);
+    return EdgeBound{std::max(half * degrees, filled.min_dihedral_deg), std::max(jacobian, filled.scaled_jacobian)};
+  }
+
+ private:
+  // Of the element that fills the edge alone; zero where it does not fit.
+  EdgeBound bound_of_one(const Side& first, const Side& second) const {
+    const auto& p = surface_.vertices;
+    const Vec3 &a = p[first.tail], &b = p[first.head], &c = p[first.apex], &d = p[second.apex];
+    const TetShape filled = measure_tetrahedron(a, c, b, d);
+    double least = filled.min_dihedral_deg;
+    const auto leave = [&](const Side& side, std::uint32_t step, const Vec3& from, const Vec3& to, const Vec3& other,
+                           const Vec3& opposite) {
+      const double left =
+          (angle_[3 * side.triangle + (side.number + step) % 3] - dihedral(from, to, other, opposite)) * degrees;
+      // Nothing is left where the next triangle is a face of the element, too.
+      if (std::abs(left) > 1e-6) least = std::min(least, left);
+    };
+    leave(first, 1, b, c, a, d);
+    leave(first, 2, c, a, b, d);
+    leave(second, 1, a, d, b, c);
+    leave(second, 2, d, b, a, c);
+    if (!(least > 0)) return {0, 0};
+    return {least, filled.scaled_jacobian};
+  }
+
+  const SurfaceMesh& surface_;
+  std::vector<Side> sides_;
+  std::vector<double> angle_;  // by triangle and side
+};
 
 }  // namespace
 
@@ -66,17 +122,16 @@ SurfaceBound surface_bound(const SurfaceMesh& surface) {
     bound.scaled_jacobian = jacobian;
     bound.scaled_jacobian_at = place;
   };
-  const std::vector<Side> all = sides(surface);
-  for (std::size_t i = 0; i + 1 < all.size(); ++i) {
-    if (all[i].tail != all[i + 1].head || all[i].head != all[i + 1].tail) continue;
-    const auto edge = convex_edge_bound(surface, all[i], all[i + 1]);
-    if (!edge) continue;
-    const Vec3 middle = (p[all[i].tail] + p[all[i].head]) / 2;
+  const ConvexEdges edges(surface);
+  edges.for_each_edge([&](const Side& first, const Side& second) {
+    const auto edge = edges.bound(first, second);
+    if (!edge) return;
+    const Vec3 middle = (p[first.tail] + p[first.head]) / 2;
     limit_jacobian(edge->scaled_jacobian, middle);
-    if (edge->min_dihedral_deg >= bound.min_dihedral_deg) continue;
+    if (edge->min_dihedral_deg >= bound.min_dihedral_deg) return;
     bound.min_dihedral_deg = edge->min_dihedral_deg;
     bound.min_dihedral_at = middle;
-  }
+  });
   for (const Triangle& t : surface.triangles)
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3 u = p[t[(k + 1) % 3]] - p[t[k]], v = p[t[(k + 2) % 3]] - p[t[k]];

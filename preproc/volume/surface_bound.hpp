@@ -18,10 +18,11 @@ struct SurfaceBound {
 };
 
 // At a convex edge of interior dihedral angle theta either several elements share the angle, so that one of them has
-// theta / 2 at most, or one element fills it, and then its corners are those of the two triangles: the better of both
-// bounds the angle. The scaled Jacobian of an element with the dihedral angle phi at an edge is at most
-// sqrt(2) sin(phi) h / m, with h the height of a triangle there over the edge and m the longer of its other two sides;
-// and at a triangle's corner of angle alpha at most sqrt(2) sin(alpha). The surface is closed and manifold. O(n log n).
+// theta / 2 at most, or one element fills it, and then its corners are those of the two triangles, and what it leaves
+// of the angles at their other edges is for others: the better of both bounds the angle. The scaled Jacobian of an
+// element with the dihedral angle phi at an edge is at most sqrt(2) sin(phi) h / m, with h the height of a triangle
+// there over the edge and m the longer of its other two sides; and at a triangle's corner of angle alpha at most
+// sqrt(2) sin(alpha). The surface is closed and manifold. O(n log n).
 SurfaceBound surface_bound(const SurfaceMesh& surface);
 
 }  // namespace scan2fea

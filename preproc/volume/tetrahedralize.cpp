@@ -21,10 +21,9 @@ std::string plain_number(double x) {
 }
 
 std::string switches(const TetrahedralizeOptions& options, bool own_points) {
-  // p: fill a surface; Q: quiet; J: keep unused nodes, so that numbers stay; O0: leave the optimisation to us; Y: do
-  // not split the boundary; q: TetGen's own points, until the radius-edge ratio holds and the smallest dihedral angle
-  // is 10 degrees.
-  std::string text = "pQJO0";
+  // p: fill a surface; Q: quiet; J: keep unused nodes, so that numbers stay; Y: do not split the boundary; q: TetGen's
+  // own points, until the radius-edge ratio holds and the smallest dihedral angle is 10 degrees.
+  std::string text = "pQJ";
   if (!options.split_boundary) text += 'Y';
   if (own_points) {
     text += "q" + plain_number(options.grading) + "/10";
@@ -33,8 +32,10 @@ std::string switches(const TetrahedralizeOptions& options, bool own_points) {
   return text;
 }
 
-// Above this share of thin walls a lattice makes the mesh worse.
-constexpr double most_thin_walls = 0.3;
+// Above this share of thin walls there is too little room for a lattice to be worth it. Below, it fills what is thick
+// and keeps out of the thin walls, where TetGen's refinement has no room for points either and insertion sets the few
+// that help.
+constexpr double most_thin_walls = 0.6;
 
 // The lattice's edges in elements of a given volume: a cell of volume a^3 holds 12, and near the surface, where the
 // lattice is cut, they may be larger by half.

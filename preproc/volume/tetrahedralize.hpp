@@ -16,7 +16,7 @@ namespace scan2fea {
 
 // Who places the nodes inside.
 enum class InteriorPoints {
-  automatic,  // the lattice, unless much of the body is thinner than an edge is long
+  automatic,  // the lattice, unless most of the body is thinner than an edge is long
   lattice,    // see lattice_points: the better shapes wherever there is room
   tetgen,     // TetGen's refinement by radius-edge ratio: the better shapes in thin walls
 };
