@@ -34,18 +34,6 @@ constexpr double longest_scan_edge = 0.7;
 constexpr double tail_of_limit = 0.5;
 constexpr double most_lift = 300;
 
-void grow(BoundingBox& box, const Vec3& p) {
-  box.low = box.low.cwiseMin(p);
-  box.high = box.high.cwiseMax(p);
-}
-
-BoundingBox box_of(const SurfaceMesh& mesh, const Triangle& t) {
-  BoundingBox box{mesh.vertices[t[0]], mesh.vertices[t[0]]};
-  grow(box, mesh.vertices[t[1]]);
-  grow(box, mesh.vertices[t[2]]);
-  return box;
-}
-
 bool meet(const BoundingBox& a, const BoundingBox& b) {
   return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
 }
@@ -104,15 +92,17 @@ class Surroundings {
  public:
   Surroundings(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& patch_faces,
                const std::vector<std::uint32_t>& patch_vertices, const SurfaceMesh& patch,
-               const std::vector<bool>& fixed, const BoundingBox& box, const SearchedScan& scan, const PatchGoal& goal)
+               const std::vector<bool>& fixed, const BoundingBox& box, const SurfaceMesh& scan,
+               const std::vector<std::uint32_t>& scan_faces, const PatchGoal& goal)
       : goal_(goal), fixed_(fixed), box_(box), shared_(patch_vertices.size()) {
     std::vector<std::uint32_t> around;
     for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f)
-      if (meet(box_of(mesh, mesh.triangles[f]), box) && !std::binary_search(patch_faces.begin(), patch_faces.end(), f))
+      if (meet(face_box(mesh, mesh.triangles[f]), box) &&
+          !std::binary_search(patch_faces.begin(), patch_faces.end(), f))
         around.push_back(f);
     std::vector<std::uint32_t> vertices = patch_vertices;
     frozen_ = part_of(mesh, around, vertices);
-    cut_scan(scan, patch);
+    cut_scan(scan, scan_faces, patch);
   }
 
   bool has_scan() const { return fit_scan_.has_value(); }
@@ -142,12 +132,10 @@ class Surroundings {
   }
 
  private:
-  void cut_scan(const SearchedScan& scan, const SurfaceMesh& patch) {
-    std::vector<std::uint32_t> faces, vertices;
-    scan.tree.for_each_overlap(box_, [&](std::uint32_t f) { faces.push_back(f); });
-    if (faces.empty()) return;
-    std::sort(faces.begin(), faces.end());
-    scan_ = part_of(scan.surface.mesh, faces, vertices);
+  void cut_scan(const SurfaceMesh& scan, const std::vector<std::uint32_t>& scan_faces, const SurfaceMesh& patch) {
+    if (scan_faces.empty()) return;
+    std::vector<std::uint32_t> vertices;
+    scan_ = part_of(scan, scan_faces, vertices);
     const SurfaceMesh fine =
         refine_scan(scan_, {std::vector<double>(scan_.vertices.size(), goal_.edge)}, longest_scan_edge, 8).mesh;
 
@@ -312,6 +300,11 @@ std::optional<Trial> next_state(const Trial& now, const Surroundings& surroundin
 
 }  // namespace
 
+BoundingBox face_box(const SurfaceMesh& mesh, const Triangle& t) {
+  const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+  return {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
+}
+
 RefinementPatch::RefinementPatch(const SurfaceMesh& mesh, const VertexStars& stars, std::uint32_t seed, int rings,
                                  double reach) {
   std::vector<std::uint32_t> inner(mesh.triangles[seed].begin(), mesh.triangles[seed].end());
@@ -357,11 +350,12 @@ RefinementPatch::RefinementPatch(const SurfaceMesh& mesh, const VertexStars& sta
   box_.high.array() += reach;
 }
 
-bool RefinementPatch::improve(const SurfaceMesh& mesh, const SearchedScan& scan, const PatchGoal& goal) {
-  const Surroundings surroundings(mesh, faces_, vertices_, patch_, fixed_, box_, scan, goal);
-  if (!surroundings.has_scan()) return false;
+PatchOutcome RefinementPatch::improve(const SurfaceMesh& mesh, const SurfaceMesh& scan,
+                                      const std::vector<std::uint32_t>& scan_faces, const PatchGoal& goal) {
+  const Surroundings surroundings(mesh, faces_, vertices_, patch_, fixed_, box_, scan, scan_faces, goal);
+  if (!surroundings.has_scan()) return {};
   Trial now = surroundings.judged(patch_);
-  if (!now.sound) return false;
+  if (!now.sound) return {};
   bool improved = false;
   for (int step = 0; step < most_steps && now.merit > 0; ++step) {
     std::optional<Trial> next = next_state(now, surroundings, inserted() < goal.most_vertices);
@@ -370,7 +364,7 @@ bool RefinementPatch::improve(const SurfaceMesh& mesh, const SearchedScan& scan,
     patch_ = now.patch;
     improved = true;
   }
-  return improved;
+  return {.improved = improved, .reached = now.merit == 0};
 }
 
 void RefinementPatch::write(SurfaceMesh& mesh) const {

@@ -6,9 +6,10 @@
 // it is, so that the triangles around are not disturbed and patches apart from each other can be worked on at once.
 #pragma once
 
-#include "preproc/surface/reference_surface.hpp"
-#include "quality/triangle_tree.hpp"
+#include "preproc/mesh/surface_mesh.hpp"
+#include "preproc/surface/adjacency.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -22,11 +23,12 @@ struct PatchGoal {
   std::size_t most_vertices = 0;  // that may be inserted
 };
 
-// The scan and a tree of all its faces.
-struct SearchedScan {
-  const ReferenceSurface& surface;
-  const TriangleTree& tree;
+struct PatchOutcome {
+  bool improved = false;  // came nearer to the limit
+  bool reached = false;   // is within it
 };
+
+BoundingBox face_box(const SurfaceMesh& mesh, const Triangle& t);
 
 class RefinementPatch {
  public:
@@ -39,10 +41,11 @@ class RefinementPatch {
   // and written one after the other.
   const BoundingBox& box() const { return box_; }
 
-  // Whether the patch came nearer to the limit. Never passes through itself or the surface around, never inverts a
-  // face against the scan. A few ms a trial and thousand scan faces within reach; about 20 trials a step, at most 6
-  // steps. Deterministic, whatever the number of threads.
-  bool improve(const SurfaceMesh& mesh, const SearchedScan& scan, const PatchGoal& goal);
+  // `scan_faces`: those in the box, ascending. The patch never passes through itself or the surface around, and never
+  // inverts a face against the scan. A few ms a trial and thousand scan faces; about 20 trials a step, at most 6 steps.
+  // Deterministic, whatever the number of threads.
+  PatchOutcome improve(const SurfaceMesh& mesh, const SurfaceMesh& scan, const std::vector<std::uint32_t>& scan_faces,
+                       const PatchGoal& goal);
 
   std::size_t inserted() const { return patch_.vertices.size() - vertices_.size(); }
 

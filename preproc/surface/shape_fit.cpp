@@ -223,16 +223,17 @@ class Fitter {
   void measure(ShapeFitResult& result) const {
     double sum = 0;
     double total = 0;
-    double largest = 0;
-    const auto add = [&](const Vec3& p, const Vec3& q, double weight) {
+    std::vector<double>& largest = result.largest_distance_of_face;
+    largest.assign(mesh_.triangles.size(), 0);
+    const auto add = [&](const Vec3& p, const Vec3& q, double weight, std::uint32_t face) {
       const double squared = (p - q).squaredNorm();
       sum += weight * squared;
       total += weight;
-      largest = std::max(largest, squared);
+      largest[face] = std::max(largest[face], squared);
     };
     const auto mean = [&] { return total > 0 ? std::sqrt(sum / total) : 0; };
     for (std::size_t s = 0; s < locations_.size(); ++s) {
-      add(forward_.samples[s].point, point_at(mesh_, locations_[s]), forward_.samples[s].weight);
+      add(forward_.samples[s].point, point_at(mesh_, locations_[s]), forward_.samples[s].weight, locations_[s].face);
     }
     result.rms_distance = mean();
     sum = total = 0;
@@ -240,10 +241,11 @@ class Fitter {
       const auto f = static_cast<std::uint32_t>(s / face_samples.size());
       if (!has_free_vertex(f)) continue;
       add(point_at(mesh_, {f, false, face_samples[s % face_samples.size()]}), point_at(scan_.mesh, on_scan_[s]),
-          area_vector(mesh_, mesh_.triangles[f]).norm());
+          area_vector(mesh_, mesh_.triangles[f]).norm(), f);
     }
     result.rms_distance = std::max(result.rms_distance, mean());
-    result.largest_distance = std::sqrt(largest);
+    for (double& d : largest) d = std::sqrt(d);
+    result.largest_distance = *std::max_element(largest.begin(), largest.end());
     result.samples = locations_.size() + on_scan_.size();
   }
 

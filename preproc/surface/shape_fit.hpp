@@ -48,6 +48,7 @@ struct ShapeFitResult {
   // Of the samples, the worse side, when they were located last (before the last sweeps), in model units.
   double rms_distance = 0;
   double largest_distance = 0;
+  std::vector<double> largest_distance_of_face;  // by the face that the sample was located on, or is of
   std::size_t samples = 0;
   double largest_step = 0;  // of a vertex, in the last sweep
 };

@@ -44,23 +44,23 @@ struct FitPlan {
   double fidelity_of_diagonal;  // the dial between shape and fit, at the least
   double fidelity_of_residual;  // and over the RMS distance of the first fit
   int trials;
-  int rounds_for_worst;  // of local refinement where the largest distances are, see lower_worst
+  bool lowers_worst;  // see lower_worst
 };
 
 FitPlan plan_of(Effort effort) {
   switch (effort) {
     case Effort::low:
       return {
-          .rounds = 4, .fidelity_of_diagonal = 0.0013, .fidelity_of_residual = 7, .trials = 1, .rounds_for_worst = 0};
+          .rounds = 4, .fidelity_of_diagonal = 0.0013, .fidelity_of_residual = 7, .trials = 1, .lowers_worst = false};
     case Effort::normal:
       return {
-          .rounds = 8, .fidelity_of_diagonal = 0.0012, .fidelity_of_residual = 7, .trials = 1, .rounds_for_worst = 1};
+          .rounds = 8, .fidelity_of_diagonal = 0.0012, .fidelity_of_residual = 7, .trials = 1, .lowers_worst = true};
     case Effort::high:
       return {.rounds = 12,
               .fidelity_of_diagonal = 0.00095,
               .fidelity_of_residual = 5.7,
               .trials = 5,
-              .rounds_for_worst = 4};
+              .lowers_worst = true};
   }
   return {};
 }
@@ -224,17 +224,16 @@ Candidate make_surface(Scan& scan, const SizingOptions& sizing, const SimplifyOp
 
 // The largest distances are at a few fins and folds thinner than the triangles, far from all others: these places get
 // triangles of their own, so few that the count stays within what was asked for.
-void lower_worst(Candidate& candidate, Scan& scan, int rounds, SimplifyResult& result, const Progress& progress) {
+void lower_worst(Candidate& candidate, Scan& scan, SimplifyResult& result, const Progress& progress) {
   constexpr double outlier = 14;           // over the RMS distance; 10 takes more shape than it gives
   constexpr double most_vertices = 0.001;  // of the triangles: at most 0.2 % more triangles
   LocalRefinementOptions options;
   options.limit = outlier * candidate.fit.rms_distance;
-  if (!(options.limit > 0) || rounds == 0) return;
-  options.rounds = rounds;
+  if (!(options.limit > 0)) return;
   options.least_angle_deg = least_angle_deg;
   options.most_vertices = static_cast<std::size_t>(most_vertices * static_cast<double>(result.faces_after));
   SurfaceMesh refined = candidate.mesh;
-  refine_within(refined, scan.reference(), options, progress);
+  refine_worst(refined, scan.reference(), candidate.fit.largest_distance_of_face, options, progress);
   if (!preserve_volume_clear(refined, scan.mesh)) return;
   candidate.mesh = std::move(refined);
   result.faces_after = candidate.mesh.triangles.size();
@@ -336,8 +335,8 @@ SimplifyResult simplify(const SurfaceMesh& mesh, SurfaceMesh& surface, const Sim
       sizing.factors = factors;
     }
     Candidate candidate = make_surface(scan, sizing, options, options.effort, result, progress);
-    if (result.method == SimplifyMethod::lattice)
-      lower_worst(candidate, scan, plan_of(options.effort).rounds_for_worst, result, progress);
+    if (plan_of(options.effort).lowers_worst && result.method == SimplifyMethod::lattice)
+      lower_worst(candidate, scan, result, progress);
     surface = std::move(candidate.mesh);
   }
   return result;
