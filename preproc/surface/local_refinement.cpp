@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <string>
 
@@ -31,7 +32,8 @@ struct Place {
 };
 
 void check(const LocalRefinementOptions& options) {
-  if (!(options.limit > 0) || !(options.least_angle_deg >= 0 && options.least_angle_deg < 60) || options.rounds < 1)
+  if (!(options.limit > 0) || !(options.least_angle_deg >= 0 && options.least_angle_deg < 60) || options.rounds < 1 ||
+      options.most_places < 1)
     throw WrongUsage({.what = "local refinement's options out of range",
                       .where = {},
                       .value = "limit " + std::to_string(options.limit) + ", " +
@@ -181,7 +183,14 @@ LocalRefinementResult refine_worst(SurfaceMesh& mesh, const ReferenceSurface& sc
   progress("local refinement", 0);
   const double edge = mean_edge(mesh, scan);
   attribute(far_vertices(mesh, scan, options.limit), mesh, edge, deviation);
-  return refine_places(mesh, scan, deviation, edge, options);
+  LocalRefinementOptions used = options;
+  if (options.most_places < deviation.size()) {
+    std::vector<double> sorted = deviation;
+    const auto next = sorted.begin() + static_cast<std::ptrdiff_t>(options.most_places);
+    std::nth_element(sorted.begin(), next, sorted.end(), std::greater<>());
+    used.limit = std::max(used.limit, *next);
+  }
+  return refine_places(mesh, scan, deviation, edge, used);
 }
 
 BoundedRefinementResult refine_within(SurfaceMesh& mesh, const ReferenceSurface& scan,

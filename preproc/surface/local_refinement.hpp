@@ -21,6 +21,8 @@ struct LocalRefinementOptions {
   // Smaller angles are not made, nor made smaller; in [0, 60). Higher leaves less room to come near.
   double least_angle_deg = 35;
   std::size_t most_vertices = std::numeric_limits<std::size_t>::max();  // inserted; each makes two triangles more
+  // Of refine_worst: where more places are beyond the limit, only so many of the worst are mended. At least 1.
+  std::size_t most_places = std::numeric_limits<std::size_t>::max();
   // Of refine_within, each bounded; at least 1.
   int rounds = 10;
 };

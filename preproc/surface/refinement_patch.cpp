@@ -271,30 +271,35 @@ std::optional<Trial> best_of(std::vector<Trial>& trials, const Trial& now) {
   return best;
 }
 
-// One step: what lowers the deviation most, changes without new vertices first.
+// One step: what lowers the deviation most; the cheaper ways first, and no other where they reach the limit.
 std::optional<Trial> next_state(const Trial& now, const Surroundings& surroundings, bool may_insert) {
+  std::vector<Trial> trials;
+  trials.push_back(surroundings.fitted(now.patch));
+  std::optional<Trial> best = best_of(trials, now);
+  if (best && best->merit == 0) return best;
+
   const HalfedgeMesh mesh(now.patch);
   const std::vector<Index> edges = edges_around(mesh, now.worst);
-  std::vector<Trial> trials(1 + edges.size());
-  tbb::parallel_for(std::size_t{0}, trials.size(), [&](std::size_t i) {
+  trials.assign(edges.size() + 1, {});
+  tbb::parallel_for(std::size_t{0}, edges.size(), [&](std::size_t i) {
     HalfedgeMesh changed = mesh;
-    if (i > 0) {
-      if (!changed.can_flip(edges[i - 1])) return;
-      changed.flip(edges[i - 1]);
-    }
+    if (!changed.can_flip(edges[i])) return;
+    changed.flip(edges[i]);
     trials[i] = surroundings.fitted(changed.to_surface());
   });
-  std::optional<Trial> best = best_of(trials, now);
+  if (best) trials.back() = std::move(*best);
+  best = best_of(trials, now);
   if (!may_insert || (best && best->merit <= good_gain * now.merit)) return best;
-  trials.assign(edges.size(), {});
-  tbb::parallel_for(std::size_t{0}, trials.size(), [&](std::size_t i) {
+
+  trials.assign(edges.size() + 1, {});
+  tbb::parallel_for(std::size_t{0}, edges.size(), [&](std::size_t i) {
     HalfedgeMesh changed = mesh;
     const Vec3 middle = 0.5 * (mesh.points[mesh.origin(edges[i])] + mesh.points[mesh.target(edges[i])]);
     const Index v = changed.split_edge(edges[i], middle);
     restore_delaunay(changed, v, {.crease_deg = 90});
     trials[i] = surroundings.fitted(changed.to_surface());
   });
-  if (best) trials.push_back(std::move(*best));
+  if (best) trials.back() = std::move(*best);
   return best_of(trials, now);
 }
 

@@ -225,13 +225,15 @@ Candidate make_surface(Scan& scan, const SizingOptions& sizing, const SimplifyOp
 // The largest distances are at a few fins and folds thinner than the triangles, far from all others: these places get
 // triangles of their own, so few that the count stays within what was asked for.
 void lower_worst(Candidate& candidate, Scan& scan, SimplifyResult& result, const Progress& progress) {
-  constexpr double outlier = 14;           // over the RMS distance; 10 takes more shape than it gives
-  constexpr double most_vertices = 0.001;  // of the triangles: at most 0.2 % more triangles
+  constexpr double outlier = 14;             // over the RMS distance; 10 takes more shape than it gives
+  constexpr double vertices_a_face = 0.001;  // at most 0.2 % more triangles
+  constexpr std::size_t faces_a_place = 1500;
   LocalRefinementOptions options;
   options.limit = outlier * candidate.fit.rms_distance;
   if (!(options.limit > 0)) return;
   options.least_angle_deg = least_angle_deg;
-  options.most_vertices = static_cast<std::size_t>(most_vertices * static_cast<double>(result.faces_after));
+  options.most_vertices = static_cast<std::size_t>(vertices_a_face * static_cast<double>(result.faces_after));
+  options.most_places = 1 + result.faces_after / faces_a_place;
   SurfaceMesh refined = candidate.mesh;
   refine_worst(refined, scan.reference(), candidate.fit.largest_distance_of_face, options, progress);
   if (!preserve_volume_clear(refined, scan.mesh)) return;
