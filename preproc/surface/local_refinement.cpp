@@ -92,6 +92,16 @@ FarPoints far_vertices(const SurfaceMesh& mesh, const ReferenceSurface& scan, do
   return far;
 }
 
+// The worst first.
+std::vector<Place> places_beyond(const std::vector<double>& deviation, double limit) {
+  std::vector<Place> places;
+  for (std::uint32_t f = 0; f < deviation.size(); ++f)
+    if (deviation[f] > limit) places.push_back({f, deviation[f]});
+  std::stable_sort(places.begin(), places.end(),
+                   [](const Place& a, const Place& b) { return a.deviation > b.deviation; });
+  return places;
+}
+
 bool apart(const BoundingBox& a, const BoundingBox& b) {
   return (a.low.array() > b.high.array()).any() || (b.low.array() > a.high.array()).any();
 }
@@ -123,21 +133,27 @@ std::vector<std::vector<std::uint32_t>> scan_faces_near(const SurfaceMesh& scan,
   return near;
 }
 
-// Those at once that are apart from each other, until each has had its turn. Returns those that are still too far.
+// Those at once that are apart from each other, until each has had its turn or was within another's patch, which then
+// had it for its own. Returns those whose patches are still too far.
 std::vector<Place> mend(SurfaceMesh& mesh, const ReferenceSurface& scan, std::vector<Place> places, int rings,
                         const PatchGoal& goal, std::size_t most_vertices, LocalRefinementResult& result) {
   std::vector<Place> left;
+  std::vector<bool> covered(mesh.triangles.size(), false);
   while (!places.empty()) {
     const VertexStars stars(mesh);
     std::vector<RefinementPatch> batch;
     std::vector<Place> taken, later;
     for (const Place& place : places) {
-      RefinementPatch patch(mesh, stars, place.face, rings, 1.1 * place.deviation + 0.3 * goal.edge);
+      if (covered[place.face]) continue;
+      RefinementPatch patch(mesh, stars, place.face, rings, place.deviation);
       const bool is_apart = std::all_of(batch.begin(), batch.end(),
                                         [&](const RefinementPatch& other) { return apart(patch.box(), other.box()); });
       (is_apart ? taken : later).push_back(place);
-      if (is_apart) batch.push_back(std::move(patch));
+      if (!is_apart) continue;
+      for (const std::uint32_t f : patch.faces()) covered[f] = true;
+      batch.push_back(std::move(patch));
     }
+    if (batch.empty()) break;
     const std::vector<std::vector<std::uint32_t>> scan_faces = scan_faces_near(scan.mesh, batch);
     PatchGoal part = goal;
     part.most_vertices = (most_vertices - std::min(most_vertices, result.inserted)) / batch.size();
@@ -157,18 +173,12 @@ std::vector<Place> mend(SurfaceMesh& mesh, const ReferenceSurface& scan, std::ve
 }
 
 LocalRefinementResult refine_places(SurfaceMesh& mesh, const ReferenceSurface& scan,
-                                    const std::vector<double>& deviation, double edge,
-                                    const LocalRefinementOptions& options) {
+                                    const std::vector<double>& deviation, const LocalRefinementOptions& options) {
   PatchGoal goal;
   goal.limit = (1 - reserve) * options.limit;
   goal.fidelity = options.fidelity_of_diagonal * scan.diagonal;
   goal.least_angle_deg = options.least_angle_deg;
-  goal.edge = edge;
-  std::vector<Place> places;
-  for (std::uint32_t f = 0; f < deviation.size(); ++f)
-    if (deviation[f] > goal.limit) places.push_back({f, deviation[f]});
-  std::stable_sort(places.begin(), places.end(),
-                   [](const Place& a, const Place& b) { return a.deviation > b.deviation; });
+  std::vector<Place> places = places_beyond(deviation, goal.limit);
   LocalRefinementResult result;
   for (int rings = fewest_rings; rings <= most_rings && !places.empty(); ++rings)
     places = mend(mesh, scan, std::move(places), rings, goal, options.most_vertices, result);
@@ -181,8 +191,7 @@ LocalRefinementResult refine_worst(SurfaceMesh& mesh, const ReferenceSurface& sc
                                    const LocalRefinementOptions& options, const Progress& progress) {
   check(options);
   progress("local refinement", 0);
-  const double edge = mean_edge(mesh, scan);
-  attribute(far_vertices(mesh, scan, options.limit), mesh, edge, deviation);
+  attribute(far_vertices(mesh, scan, options.limit), mesh, mean_edge(mesh, scan), deviation);
   LocalRefinementOptions used = options;
   if (options.most_places < deviation.size()) {
     std::vector<double> sorted = deviation;
@@ -190,7 +199,7 @@ LocalRefinementResult refine_worst(SurfaceMesh& mesh, const ReferenceSurface& sc
     std::nth_element(sorted.begin(), next, sorted.end(), std::greater<>());
     used.limit = std::max(used.limit, *next);
   }
-  return refine_places(mesh, scan, deviation, edge, used);
+  return refine_places(mesh, scan, deviation, used);
 }
 
 BoundedRefinementResult refine_within(SurfaceMesh& mesh, const ReferenceSurface& scan,
@@ -209,10 +218,9 @@ BoundedRefinementResult refine_within(SurfaceMesh& mesh, const ReferenceSurface&
       if (bound.to_mesh.upper[f] > options.limit)
         far.add(bound.to_mesh.farthest[f], scan.face_normals[f], bound.to_mesh.upper[f]);
     std::vector<double> deviation = bound.to_reference.upper;
-    const double edge = mean_edge(mesh, scan);
-    attribute(far, mesh, edge, deviation);
+    attribute(far, mesh, mean_edge(mesh, scan), deviation);
     left.most_vertices = options.most_vertices - std::min(options.most_vertices, result.changes.inserted);
-    const LocalRefinementResult changes = refine_places(mesh, scan, deviation, edge, left);
+    const LocalRefinementResult changes = refine_places(mesh, scan, deviation, left);
     result.changes.patches += changes.patches;
     result.changes.inserted += changes.inserted;
     if (changes.patches == 0) break;

@@ -14,6 +14,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <numeric>
 #include <optional>
 #include <unordered_map>
@@ -74,7 +76,8 @@ SurfaceMesh selected(const SurfaceMesh& mesh, const std::vector<bool>& keep) {
 // One state of a patch, and how good it is.
 struct Trial {
   SurfaceMesh patch;
-  bool sound = false;
+  bool sound = false;         // meets nothing, and is within the box
+  std::size_t inverted = 0;   // faces
   double merit = 0;           // sum of ((deviation - limit) / limit)^4 over the faces of both sides beyond the limit
   double missing_angles = 0;  // degrees
   double shape = 0;           // sum of F(eta)
@@ -93,8 +96,8 @@ class Surroundings {
   Surroundings(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& patch_faces,
                const std::vector<std::uint32_t>& patch_vertices, const SurfaceMesh& patch,
                const std::vector<bool>& fixed, const BoundingBox& box, const SurfaceMesh& scan,
-               const std::vector<std::uint32_t>& scan_faces, const PatchGoal& goal)
-      : goal_(goal), fixed_(fixed), box_(box), shared_(patch_vertices.size()) {
+               const std::vector<std::uint32_t>& scan_faces, const PatchGoal& goal, double edge)
+      : goal_(goal), fixed_(fixed), box_(box), edge_(edge), shared_(patch_vertices.size()) {
     std::vector<std::uint32_t> around;
     for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f)
       if (meet(face_box(mesh, mesh.triangles[f]), box) &&
@@ -137,7 +140,7 @@ class Surroundings {
     std::vector<std::uint32_t> vertices;
     scan_ = part_of(scan, scan_faces, vertices);
     const SurfaceMesh fine =
-        refine_scan(scan_, {std::vector<double>(scan_.vertices.size(), goal_.edge)}, longest_scan_edge, 8).mesh;
+        refine_scan(scan_, {std::vector<double>(scan_.vertices.size(), edge_)}, longest_scan_edge, 8).mesh;
 
     const SurfaceMesh around = with_frozen(patch);
     const VertexStars stars(around);
@@ -148,7 +151,7 @@ class Surroundings {
     std::vector<Vec3> centroids(fine.triangles.size());
     for (std::size_t f = 0; f < centroids.size(); ++f) centroids[f] = centroid(fine, fine.triangles[f]);
     const std::vector<Vec3> fine_normals = face_normals(fine);
-    const std::vector<std::uint32_t> start = nearest_vertices(centroids, fine_normals, around, goal_.edge);
+    const std::vector<std::uint32_t> start = nearest_vertices(centroids, fine_normals, around, edge_);
     std::vector<bool> fits(fine.triangles.size()), answered(fine.triangles.size());
     const auto is_of_patch = [&](std::uint32_t face) { return face < patch.triangles.size(); };
     for (std::size_t f = 0; f < fits.size(); ++f) {
@@ -179,6 +182,7 @@ class Surroundings {
   void fit(SurfaceMesh& patch) const {
     ShapeFitOptions options;
     options.rounds = 6;
+    options.hold_small_faces = true;
     options.fidelity_of_diagonal = std::min(0.09, goal_.fidelity / fit_scan_->diagonal);
     options.lift_tail_of_diagonal = tail_of_limit * goal_.limit / fit_scan_->diagonal;
     options.most_lift = most_lift;
@@ -199,8 +203,8 @@ class Surroundings {
     if (!find_self_intersections(around, own).empty()) return;
     const SurfaceDefects defects =
         find_defects(patch, *fit_scan_, scan_vertices_of_faces(patch, *fit_scan_), goal_.least_angle_deg);
-    if (!defects.meshable()) return;
     trial.sound = true;
+    trial.inverted = defects.inverted.size();
     trial.missing_angles = defects.missing_angles_deg;
     trial.shape = 0;
     for (const Triangle& t : patch.triangles)
@@ -225,7 +229,7 @@ class Surroundings {
       const auto& [a, b, c] = patch.triangles[f];
       const Vec3 at = closest_point_on_triangle(point, patch.vertices[a], patch.vertices[b], patch.vertices[c]);
       double squared = (point - at).squaredNorm();
-      if (area_vector(patch, patch.triangles[f]).dot(normal) < 0) squared += goal_.edge * goal_.edge;
+      if (area_vector(patch, patch.triangles[f]).dot(normal) < 0) squared += edge_ * edge_;
       if (squared >= least) continue;
       least = squared;
       nearest = f;
@@ -236,6 +240,7 @@ class Surroundings {
   const PatchGoal& goal_;
   const std::vector<bool>& fixed_;
   const BoundingBox& box_;
+  double edge_;
   std::size_t shared_;  // vertices of the patch as it was, which come first in frozen_
   SurfaceMesh frozen_;
   SurfaceMesh scan_;      // within the box
@@ -265,7 +270,7 @@ std::vector<Index> edges_around(const HalfedgeMesh& mesh, Index face) {
 std::optional<Trial> best_of(std::vector<Trial>& trials, const Trial& now) {
   std::optional<Trial> best;
   for (Trial& t : trials) {
-    if (!t.sound || t.missing_angles > now.missing_angles) continue;
+    if (!t.sound || t.inverted > now.inverted || t.missing_angles > now.missing_angles) continue;
     if (!best || t.is_better(*best)) best = std::move(t);
   }
   return best;
@@ -311,7 +316,7 @@ BoundingBox face_box(const SurfaceMesh& mesh, const Triangle& t) {
 }
 
 RefinementPatch::RefinementPatch(const SurfaceMesh& mesh, const VertexStars& stars, std::uint32_t seed, int rings,
-                                 double reach) {
+                                 double deviation) {
   std::vector<std::uint32_t> inner(mesh.triangles[seed].begin(), mesh.triangles[seed].end());
   const auto add_stars = [&](std::size_t first) {
     const std::size_t last = inner.size();
@@ -350,6 +355,8 @@ RefinementPatch::RefinementPatch(const SurfaceMesh& mesh, const VertexStars& sta
     grown = inner.size() > first;
     if (grown) add_stars(first);
   }
+  edge_ = std::sqrt(4 / std::numbers::sqrt3 * surface_area(patch_) / static_cast<double>(faces_.size()));
+  const double reach = 1.1 * deviation + 0.3 * edge_;
   box_ = bounding_box(patch_.vertices);
   box_.low.array() -= reach;
   box_.high.array() += reach;
@@ -357,7 +364,7 @@ RefinementPatch::RefinementPatch(const SurfaceMesh& mesh, const VertexStars& sta
 
 PatchOutcome RefinementPatch::improve(const SurfaceMesh& mesh, const SurfaceMesh& scan,
                                       const std::vector<std::uint32_t>& scan_faces, const PatchGoal& goal) {
-  const Surroundings surroundings(mesh, faces_, vertices_, patch_, fixed_, box_, scan, scan_faces, goal);
+  const Surroundings surroundings(mesh, faces_, vertices_, patch_, fixed_, box_, scan, scan_faces, goal, edge_);
   if (!surroundings.has_scan()) return {};
   Trial now = surroundings.judged(patch_);
   if (!now.sound) return {};

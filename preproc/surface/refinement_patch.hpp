@@ -32,14 +32,14 @@ BoundingBox face_box(const SurfaceMesh& mesh, const Triangle& t);
 
 class RefinementPatch {
  public:
-  // The faces around the vertices of face `seed` and those within `rings` rings of them. `reach`: how far from the
-  // patch the scan and the surface are looked at, at least the deviation there. O(faces of the patch), and a bit a
-  // face of the mesh.
-  RefinementPatch(const SurfaceMesh& mesh, const VertexStars& stars, std::uint32_t seed, int rings, double reach);
+  // The faces around the vertices of face `seed` and those within `rings` rings of them. `deviation`: of the place; so
+  // far, and a bit more, the scan and the surface around are looked at. O(faces of the patch).
+  RefinementPatch(const SurfaceMesh& mesh, const VertexStars& stars, std::uint32_t seed, int rings, double deviation);
 
   // Everything that `improve` reads and writes lies in here: patches whose boxes do not meet may be improved at once
   // and written one after the other.
   const BoundingBox& box() const { return box_; }
+  const std::vector<std::uint32_t>& faces() const { return faces_; }
 
   // `scan_faces`: those in the box, ascending. The patch never passes through itself or the surface around, and never
   // inverts a face against the scan. A few ms a trial and thousand scan faces; about 20 trials a step, at most 6 steps.
@@ -57,6 +57,7 @@ class RefinementPatch {
   std::vector<std::uint32_t> vertices_;  // of the mesh, in the order of the patch's
   std::vector<bool> fixed_;              // per vertex: on the patch's rim
   SurfaceMesh patch_;
+  double edge_ = 0;  // mean edge length of the patch as it was
   BoundingBox box_;
 };
 

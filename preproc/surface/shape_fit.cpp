@@ -200,19 +200,21 @@ class Fitter {
       for (std::size_t f = range.begin(); f < range.end(); ++f) {
         FaceFit fit;
         fit.normal = normals_[f];
+        const double area = area_vector(mesh_, mesh_.triangles[f]).norm() / 2;
+        const double mean_area = scan_.area / static_cast<double>(fits_.size());
+        const double hold = options_.hold_small_faces && area > 0 ? std::clamp(mean_area / area, 1.0, 100.0) : 1.0;
         for (std::uint32_t k = by_face.first[f]; k < by_face.first[f + 1]; ++k) {
           const std::uint32_t s = by_face.order[k];
           const Vec3 to_target = forward_.samples[s].point - point_at(mesh_, locations_[s]);
-          const double w = share * weight_unit_ * forward_.samples[s].weight * lift(to_target.squaredNorm());
+          const double w = hold * share * weight_unit_ * forward_.samples[s].weight * lift(to_target.squaredNorm());
           add_sample(fit, locations_[s].barycentric, to_target, w, locations_[s].clamped);
         }
         if (options_.both_sides && has_free_vertex(f)) {
-          const double area = area_vector(mesh_, mesh_.triangles[f]).norm() / 2;
           for (std::size_t k = 0; k < face_samples.size(); ++k) {
             const Vec3 on_scan = point_at(scan_.mesh, on_scan_[face_samples.size() * f + k]);
             const Vec3 to_target = on_scan - point_at(mesh_, {static_cast<std::uint32_t>(f), false, face_samples[k]});
-            add_sample(fit, face_samples[k], to_target, share * weight_unit_ * area / 4 * lift(to_target.squaredNorm()),
-                       false);
+            add_sample(fit, face_samples[k], to_target,
+                       hold * share * weight_unit_ * area / 4 * lift(to_target.squaredNorm()), false);
           }
         }
         fits_[f] = fit;

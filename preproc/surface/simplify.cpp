@@ -31,6 +31,9 @@ constexpr double longest_edge_to_contract = 1;
 // Most fits reach it without the guard.
 constexpr double least_angle_deg = 38.5;
 
+// Where a deviation must hold, shape gives way first.
+constexpr double least_angle_within_deg = 28;
+
 // Of the first fit, which finds out how near the triangles can come.
 constexpr int first_rounds = 2;
 
@@ -117,6 +120,7 @@ Candidate by_lattice(Scan& scan, const SizingOptions& sizing, const FitPlan& pla
   Candidate candidate{.mesh = std::move(lattice.mesh), .crossings_mended = 0, .failure = {}, .fit = {}};
   ShapeFitOptions fit;
   fit.rounds = first_rounds;
+  fit.hold_small_faces = sizing.sizing == Sizing::uniform && !sizing.factors.empty();
   fit.fidelity_of_diagonal = plan.fidelity_of_diagonal;
   fit.nearest_vertex_of_scan_vertex = std::move(lattice.vertex_of_scan_vertex);
   const ShapeFitResult first = optimise_shape_and_fit(candidate.mesh, scan.reference(), fit, progress);
@@ -172,6 +176,7 @@ Candidate by_contraction(Scan& scan, const SizingOptions& sizing, const Progress
   Candidate fitted = contracted;
   ShapeFitOptions fit;
   fit.rounds = 12;
+  fit.hold_small_faces = sizing.sizing == Sizing::uniform && !sizing.factors.empty();
   optimise_shape_and_fit(fitted.mesh, scan.reference(), fit, progress);
   const std::vector<Vec3> targets = fitted.mesh.vertices;
   finish(fitted, scan.reference(), progress);
@@ -250,16 +255,36 @@ void require_positive(double value, const char* what) {
                       .advice = {}});
 }
 
+// What the edge lengths leave too far is brought near place by place; then the exact volume. An upper bound of the
+// deviation is returned.
+double bring_within(SurfaceMesh& surface, Scan& scan, double deviation, const Progress& progress) {
+  constexpr double for_volume = 0.995;  // of the deviation: the rest is for the shift that restores the volume
+  LocalRefinementOptions options;
+  options.limit = for_volume * deviation;
+  options.least_angle_deg = least_angle_within_deg;
+  options.fidelity_of_diagonal = std::clamp(0.6 * deviation / scan.reference().diagonal, 0.0004, 0.0016);
+  refine_within(surface, scan.reference(), options, progress);
+  preserve_volume_clear(surface, scan.mesh);
+  return bound_deviation(surface, scan.mesh, {.limit = deviation}).upper();
+}
+
+double share_beyond(const OneSidedDeviation& side, double distance) {
+  const auto beyond = std::count_if(side.upper.begin(), side.upper.end(), [&](double d) { return d > distance; });
+  return static_cast<double>(beyond) / static_cast<double>(side.upper.size());
+}
+
 // The deviation of linear triangles goes with the edge length squared, place by place: a few surfaces are made, and the
-// edge lengths renewed from how far each came from the scan there (bounds, not samples).
+// edge lengths renewed from how far each came from the scan there (bounds, not samples), until local refinement can do
+// the rest.
 SurfaceMesh make_surface_within(Scan& scan, const LargestDeviation& wanted, const SimplifyOptions& options,
                                 SimplifyResult& result, const Progress& progress) {
-  constexpr int most_trials = 6;
-  constexpr double margin = 0.7;          // of the bound, aimed at
+  constexpr int most_trials = 5;
+  constexpr double margin = 0.8;          // of the bound, aimed at
   constexpr double first_edge = 12;       // edge length of the first surface, over the deviation
   constexpr double most_shrinking = 0.5;  // of an edge from trial to trial
   constexpr double most_growing = 2.8;    // after the first, whose lengths are a guess; later ones only shrink
   constexpr double shortest_edge = 0.5;   // over the deviation: shorter ones help nothing
+  constexpr double most_beyond = 0.03;    // of the faces, for local refinement: more are cheaper mended all at once
   // A deviation far below the scan's own facets asks for more; nothing is known there.
   const double most_triangles = 4 * static_cast<double>(scan.mesh.triangles.size());
   std::vector<double> length(scan.mesh.vertices.size(), first_edge * wanted.distance);
@@ -277,10 +302,14 @@ SurfaceMesh make_surface_within(Scan& scan, const LargestDeviation& wanted, cons
     SurfaceMesh surface =
         make_surface(scan, sizing, options, trial == 0 ? Effort::low : options.effort, result, progress).mesh;
     const DeviationBound bound = bound_deviation(surface, scan.mesh, {.limit = wanted.distance});
-    result.largest_deviation = bound.upper();
-    const bool better = best.triangles.empty() || result.largest_deviation < best_result.largest_deviation;
     const std::vector<double> deviation = local_deviation(surface, scan.reference(), bound);
-    if (better) {
+    result.largest_deviation = bound.upper();
+    const bool last = trial + 1 == most_trials;
+    if (trial > 0 && (last || share_beyond(bound.to_reference, wanted.distance) <= most_beyond)) {
+      result.largest_deviation = bring_within(surface, scan, wanted.distance, progress);
+      result.faces_after = surface.triangles.size();
+    }
+    if (best.triangles.empty() || result.largest_deviation < best_result.largest_deviation) {
       best = std::move(surface);
       best_result = result;
     }
