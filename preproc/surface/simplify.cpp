@@ -284,7 +284,8 @@ SurfaceMesh make_surface_within(Scan& scan, const LargestDeviation& wanted, cons
   constexpr double most_shrinking = 0.5;  // of an edge from trial to trial
   constexpr double most_growing = 2.8;    // after the first, whose lengths are a guess; later ones only shrink
   constexpr double shortest_edge = 0.5;   // over the deviation: shorter ones help nothing
-  constexpr double most_beyond = 0.03;    // of the faces, for local refinement: more are cheaper mended all at once
+  constexpr double few_beyond = 0.03;     // of the faces, for local refinement: more are cheaper mended all at once
+  constexpr double most_beyond = 0.1;     // where there is no other way left
   // A deviation far below the scan's own facets asks for more; nothing is known there.
   const double most_triangles = 4 * static_cast<double>(scan.mesh.triangles.size());
   std::vector<double> length(scan.mesh.vertices.size(), first_edge * wanted.distance);
@@ -305,7 +306,7 @@ SurfaceMesh make_surface_within(Scan& scan, const LargestDeviation& wanted, cons
     const std::vector<double> deviation = local_deviation(surface, scan.reference(), bound);
     result.largest_deviation = bound.upper();
     const bool last = trial + 1 == most_trials;
-    if (trial > 0 && (last || share_beyond(bound.to_reference, wanted.distance) <= most_beyond)) {
+    if (trial > 0 && share_beyond(bound.to_reference, wanted.distance) <= (last ? most_beyond : few_beyond)) {
       result.largest_deviation = bring_within(surface, scan, wanted.distance, progress);
       result.faces_after = surface.triangles.size();
     }
