@@ -43,6 +43,11 @@ void check(const LocalRefinementOptions& options) {
                       .advice = {}});
 }
 
+// What is worked towards.
+double goal_limit(const LocalRefinementOptions& options) {
+  return (1 - reserve) * options.limit;
+}
+
 double mean_edge(const SurfaceMesh& mesh, const ReferenceSurface& scan) {
   return std::sqrt(4 / std::numbers::sqrt3 * scan.area / static_cast<double>(mesh.triangles.size()));
 }
@@ -138,8 +143,9 @@ std::vector<std::vector<std::uint32_t>> scan_faces_near(const SurfaceMesh& scan,
 std::vector<Place> mend(SurfaceMesh& mesh, const ReferenceSurface& scan, std::vector<Place> places, int rings,
                         const PatchGoal& goal, std::size_t most_vertices, LocalRefinementResult& result) {
   std::vector<Place> left;
-  std::vector<bool> covered(mesh.triangles.size(), false);
+  std::vector<bool> covered;
   while (!places.empty()) {
+    covered.resize(mesh.triangles.size(), false);
     const VertexStars stars(mesh);
     std::vector<RefinementPatch> batch;
     std::vector<Place> taken, later;
@@ -175,7 +181,7 @@ std::vector<Place> mend(SurfaceMesh& mesh, const ReferenceSurface& scan, std::ve
 LocalRefinementResult refine_places(SurfaceMesh& mesh, const ReferenceSurface& scan,
                                     const std::vector<double>& deviation, const LocalRefinementOptions& options) {
   PatchGoal goal;
-  goal.limit = (1 - reserve) * options.limit;
+  goal.limit = goal_limit(options);
   goal.fidelity = options.fidelity_of_diagonal * scan.diagonal;
   goal.least_angle_deg = options.least_angle_deg;
   std::vector<Place> places = places_beyond(deviation, goal.limit);
@@ -210,12 +216,12 @@ BoundedRefinementResult refine_within(SurfaceMesh& mesh, const ReferenceSurface&
   BoundedRefinementResult result;
   for (int round = 0;; ++round) {
     progress("deviation", static_cast<double>(round) / options.rounds);
-    const DeviationBound bound = bound_deviation(mesh, scan.mesh, tree, {.limit = options.limit});
+    const DeviationBound bound = bound_deviation(mesh, scan.mesh, tree, {.limit = goal_limit(options)});
     result.largest_deviation = bound.upper();
     if (result.largest_deviation <= options.limit || round == options.rounds) break;
     FarPoints far;
     for (std::uint32_t f = 0; f < scan.mesh.triangles.size(); ++f)
-      if (bound.to_mesh.upper[f] > options.limit)
+      if (bound.to_mesh.upper[f] > goal_limit(options))
         far.add(bound.to_mesh.farthest[f], scan.face_normals[f], bound.to_mesh.upper[f]);
     std::vector<double> deviation = bound.to_reference.upper;
     attribute(far, mesh, mean_edge(mesh, scan), deviation);
