@@ -34,15 +34,6 @@ std::vector<double> averaged(const SurfaceMesh& mesh, const std::vector<double>&
   return sum;
 }
 
-double demand(const ReferenceSurface& scan, const std::vector<double>& edge_length) {
-  double sum = 0;
-  for (const Triangle& t : scan.mesh.triangles) {
-    const double h = (edge_length[t[0]] + edge_length[t[1]] + edge_length[t[2]]) / 3;
-    sum += area_vector(scan.mesh, t).norm() / (h * h);
-  }
-  return sum;
-}
-
 }  // namespace
 
 std::vector<double> error_factors(const SurfaceMesh& mesh, const ReferenceSurface& scan, double exponent,
@@ -94,15 +85,6 @@ std::vector<double> error_factors(const SurfaceMesh& mesh, const ReferenceSurfac
     factors[v] = std::clamp(std::pow(std::max(ratio, 1e-12), -0.5 * exponent), least, 1 / least);
   }
   return factors;
-}
-
-void renew_from_error(std::vector<double>& edge_length, const SurfaceMesh& mesh, const ReferenceSurface& scan,
-                      double exponent) {
-  const std::vector<double> factors = error_factors(mesh, scan, exponent);
-  const double before = demand(scan, edge_length);
-  for (std::size_t v = 0; v < factors.size(); ++v) edge_length[v] *= factors[v];
-  const double scale = std::sqrt(demand(scan, edge_length) / before);
-  for (double& h : edge_length) h *= scale;
 }
 
 }  // namespace scan2fea

@@ -14,9 +14,4 @@ namespace scan2fea {
 std::vector<double> error_factors(const SurfaceMesh& mesh, const ReferenceSurface& scan, double exponent,
                                   double least = 0.5);
 
-// Multiplies `edge_length` (per vertex of the scan) by the factors, and all by a constant so that the number of
-// triangles that it asks for stays.
-void renew_from_error(std::vector<double>& edge_length, const SurfaceMesh& mesh, const ReferenceSurface& scan,
-                      double exponent);
-
 }  // namespace scan2fea

@@ -3,6 +3,7 @@
 #include "preproc/mesh/error.hpp"
 #include "preproc/surface/locate.hpp"
 #include "preproc/surface/nearest_vertices.hpp"
+#include "preproc/surface/parallel_blocks.hpp"
 #include "preproc/surface/refinement_patch.hpp"
 #include "quality/deviation_bound.hpp"
 
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <string>
 
@@ -17,9 +19,11 @@ namespace scan2fea {
 namespace {
 
 // Around a place: with fewer rings the rim holds what should move, with more the fit costs more.
-constexpr int rings_of_patch = 1;
+constexpr int fewest_rings = 1;
 constexpr int most_rings = 3;
-// Of the limit: what rounding and the exact volume's shift may take.
+// Of the scan that are asked for their distance: more of a dense scan tell little more.
+constexpr std::size_t most_vertices_per_face = 6;
+// Of the limit: what the exact volume's shift may take.
 constexpr double reserve = 0.01;
 
 struct Place {
@@ -27,31 +31,74 @@ struct Place {
   double deviation;
 };
 
-// Faces that are too far or to which the scan is, the worst first.
-std::vector<Place> places_beyond(const SurfaceMesh& mesh, const ReferenceSurface& scan, const DeviationBound& bound,
-                                 double limit, double edge) {
-  std::vector<double> deviation(mesh.triangles.size(), 0);
-  for (std::size_t f = 0; f < deviation.size(); ++f) deviation[f] = bound.to_reference.upper[f];
+void check(const LocalRefinementOptions& options) {
+  if (!(options.limit > 0) || !(options.least_angle_deg >= 0 && options.least_angle_deg < 60) || options.rounds < 1 ||
+      options.most_places < 1)
+    throw WrongUsage({.what = "local refinement's options out of range",
+                      .where = {},
+                      .value = "limit " + std::to_string(options.limit) + ", " +
+                               std::to_string(options.least_angle_deg) + " degrees, " + std::to_string(options.rounds) +
+                               " rounds",
+                      .limit = "above 0, 0 to 60 degrees, at least 1 round",
+                      .advice = {}});
+}
 
-  std::vector<std::uint32_t> scan_faces;
+// What is worked towards.
+double goal_limit(const LocalRefinementOptions& options) {
+  return (1 - reserve) * options.limit;
+}
+
+double mean_edge(const SurfaceMesh& mesh, const ReferenceSurface& scan) {
+  return std::sqrt(4 / std::numbers::sqrt3 * scan.area / static_cast<double>(mesh.triangles.size()));
+}
+
+// Points of the scan that are too far from the surface.
+struct FarPoints {
   std::vector<Vec3> points, normals;
-  for (std::uint32_t f = 0; f < scan.mesh.triangles.size(); ++f) {
-    if (bound.to_mesh.upper[f] <= limit) continue;
-    scan_faces.push_back(f);
-    points.push_back(bound.to_mesh.farthest[f]);
-    normals.push_back(scan.face_normals[f]);
+  std::vector<double> distances;
+
+  void add(const Vec3& point, const Vec3& normal, double distance) {
+    points.push_back(point);
+    normals.push_back(normal);
+    distances.push_back(distance);
   }
+};
+
+// Raises the deviation of the faces to which the points belong.
+void attribute(const FarPoints& far, const SurfaceMesh& mesh, double edge, std::vector<double>& deviation) {
   const VertexStars stars(mesh);
   const std::vector<Triangle> neighbours = face_neighbours(mesh, stars);
-  const std::vector<Vec3> face_normals_of_mesh = face_normals(mesh);
-  const WalkableMesh on{mesh, stars, neighbours, face_normals_of_mesh};
-  const std::vector<std::uint32_t> start = nearest_vertices(points, normals, mesh, edge);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const std::uint32_t f =
-        descend_to_nearest(on, {points[i], normals[i], 0}, stars.corners(start[i]).front() / 3).face;
-    deviation[f] = std::max(deviation[f], bound.to_mesh.upper[scan_faces[i]]);
+  const std::vector<Vec3> normals = face_normals(mesh);
+  const WalkableMesh on{mesh, stars, neighbours, normals};
+  const std::vector<std::uint32_t> start = nearest_vertices(far.points, far.normals, mesh, edge);
+  for (std::size_t i = 0; i < start.size(); ++i) {
+    const std::uint32_t first = stars.corners(start[i]).front() / 3;
+    const std::uint32_t f = descend_to_nearest(on, {far.points[i], far.normals[i], 0}, first).face;
+    deviation[f] = std::max(deviation[f], far.distances[i]);
   }
+}
 
+FarPoints far_vertices(const SurfaceMesh& mesh, const ReferenceSurface& scan, double limit) {
+  const std::size_t count = scan.mesh.vertices.size();
+  const std::size_t step = 1 + count / (most_vertices_per_face * mesh.triangles.size());
+  const TriangleTree tree(mesh);
+  std::vector<double> distances((count + step - 1) / step);
+  for_each_block(distances.size(), [&](std::size_t first, std::size_t last) {
+    std::uint32_t hint = tree.leaf_order().front();
+    for (std::size_t i = first; i < last; ++i) {
+      const ClosestPoint nearest = tree.closest(scan.mesh.vertices[i * step], hint);
+      hint = nearest.triangle;
+      distances[i] = std::sqrt(nearest.squared_distance);
+    }
+  });
+  FarPoints far;
+  for (std::size_t i = 0; i < distances.size(); ++i)
+    if (distances[i] > limit) far.add(scan.mesh.vertices[i * step], scan.vertex_normals[i * step], distances[i]);
+  return far;
+}
+
+// The worst first.
+std::vector<Place> places_beyond(const std::vector<double>& deviation, double limit) {
   std::vector<Place> places;
   for (std::uint32_t f = 0; f < deviation.size(); ++f)
     if (deviation[f] > limit) places.push_back({f, deviation[f]});
@@ -64,69 +111,125 @@ bool apart(const BoundingBox& a, const BoundingBox& b) {
   return (a.low.array() > b.high.array()).any() || (b.low.array() > a.high.array()).any();
 }
 
-// Those at once that are apart from each other, until each has had its turn. Returns whether any came nearer.
-bool mend(SurfaceMesh& mesh, const SearchedScan& scan, std::vector<Place> places, int rings, const PatchGoal& goal,
-          std::size_t most_vertices, LocalRefinementResult& result) {
-  const std::size_t before = result.patches;
+// Per patch the faces of the scan in its box. A scan may have millions: whole blocks of them are told to be far away
+// by one box, since neighbours in a file are mostly neighbours in space.
+std::vector<std::vector<std::uint32_t>> scan_faces_near(const SurfaceMesh& scan,
+                                                        const std::vector<RefinementPatch>& patches) {
+  using Hits = std::vector<std::pair<std::uint32_t, std::uint32_t>>;  // patch, face
+  std::vector<Hits> hits(parallel_block_count(scan.triangles.size()));
+  for_each_block(scan.triangles.size(), [&](std::size_t first, std::size_t last) {
+    std::vector<BoundingBox> boxes(last - first);
+    BoundingBox all = face_box(scan, scan.triangles[first]);
+    for (std::size_t f = first; f < last; ++f) {
+      boxes[f - first] = face_box(scan, scan.triangles[f]);
+      all.low = all.low.cwiseMin(boxes[f - first].low);
+      all.high = all.high.cwiseMax(boxes[f - first].high);
+    }
+    for (std::size_t p = 0; p < patches.size(); ++p) {
+      if (apart(all, patches[p].box())) continue;
+      for (std::size_t f = first; f < last; ++f)
+        if (!apart(boxes[f - first], patches[p].box()))
+          hits[first / parallel_block_size].emplace_back(static_cast<std::uint32_t>(p), static_cast<std::uint32_t>(f));
+    }
+  });
+  std::vector<std::vector<std::uint32_t>> near(patches.size());
+  for (const Hits& block : hits)
+    for (const auto& [p, f] : block) near[p].push_back(f);
+  return near;
+}
+
+// Those at once that are apart from each other, until each has had its turn or was within another's patch, which then
+// had it for its own. Returns those whose patches are still too far.
+std::vector<Place> mend(SurfaceMesh& mesh, const ReferenceSurface& scan, std::vector<Place> places, int rings,
+                        const PatchGoal& goal, std::size_t most_vertices, LocalRefinementResult& result) {
+  std::vector<Place> left;
+  std::vector<bool> covered;
   while (!places.empty()) {
+    covered.resize(mesh.triangles.size(), false);
     const VertexStars stars(mesh);
     std::vector<RefinementPatch> batch;
-    std::vector<Place> later;
+    std::vector<Place> taken, later;
     for (const Place& place : places) {
-      RefinementPatch patch(mesh, stars, place.face, rings, 1.1 * place.deviation + 0.3 * goal.edge);
+      if (covered[place.face]) continue;
+      RefinementPatch patch(mesh, stars, place.face, rings, place.deviation);
       const bool is_apart = std::all_of(batch.begin(), batch.end(),
                                         [&](const RefinementPatch& other) { return apart(patch.box(), other.box()); });
-      if (is_apart)
-        batch.push_back(std::move(patch));
-      else
-        later.push_back(place);
+      (is_apart ? taken : later).push_back(place);
+      if (!is_apart) continue;
+      for (const std::uint32_t f : patch.faces()) covered[f] = true;
+      batch.push_back(std::move(patch));
     }
-    // What is left may all be used up by one of them: then a few vertices more than allowed would come together.
+    if (batch.empty()) break;
+    const std::vector<std::vector<std::uint32_t>> scan_faces = scan_faces_near(scan.mesh, batch);
     PatchGoal part = goal;
-    part.most_vertices = most_vertices > result.inserted ? most_vertices - result.inserted : 0;
-    if (part.most_vertices < 6 * batch.size()) part.most_vertices /= batch.size();
-    std::vector<char> improved(batch.size());
+    part.most_vertices = (most_vertices - std::min(most_vertices, result.inserted)) / batch.size();
+    std::vector<PatchOutcome> outcomes(batch.size());
     tbb::parallel_for(std::size_t{0}, batch.size(),
-                      [&](std::size_t i) { improved[i] = batch[i].improve(mesh, scan, part) ? 1 : 0; });
+                      [&](std::size_t i) { outcomes[i] = batch[i].improve(mesh, scan.mesh, scan_faces[i], part); });
     for (std::size_t i = 0; i < batch.size(); ++i) {
-      if (!improved[i]) continue;
+      if (!outcomes[i].reached) left.push_back(taken[i]);
+      if (!outcomes[i].improved) continue;
       batch[i].write(mesh);
       result.inserted += batch[i].inserted();
       ++result.patches;
     }
     places = std::move(later);
   }
-  return result.patches > before;
+  return left;
+}
+
+LocalRefinementResult refine_places(SurfaceMesh& mesh, const ReferenceSurface& scan,
+                                    const std::vector<double>& deviation, const LocalRefinementOptions& options) {
+  PatchGoal goal;
+  goal.limit = goal_limit(options);
+  goal.fidelity = options.fidelity_of_diagonal * scan.diagonal;
+  goal.least_angle_deg = options.least_angle_deg;
+  std::vector<Place> places = places_beyond(deviation, goal.limit);
+  LocalRefinementResult result;
+  for (int rings = fewest_rings; rings <= most_rings && !places.empty(); ++rings)
+    places = mend(mesh, scan, std::move(places), rings, goal, options.most_vertices, result);
+  return result;
 }
 
 }  // namespace
 
-LocalRefinementResult refine_within(SurfaceMesh& mesh, const ReferenceSurface& scan,
-                                    const LocalRefinementOptions& options, const Progress& progress) {
-  if (!(options.limit > 0) || !(options.least_angle_deg >= 0 && options.least_angle_deg < 60) || options.rounds < 1)
-    throw WrongUsage({.what = "local refinement's options out of range",
-                      .where = {},
-                      .value = "limit " + std::to_string(options.limit) + ", " +
-                               std::to_string(options.least_angle_deg) + " degrees, " + std::to_string(options.rounds) +
-                               " rounds",
-                      .limit = "above 0, 0 to 60 degrees, at least 1 round",
-                      .advice = {}});
+LocalRefinementResult refine_worst(SurfaceMesh& mesh, const ReferenceSurface& scan, std::vector<double> deviation,
+                                   const LocalRefinementOptions& options, const Progress& progress) {
+  check(options);
+  progress("local refinement", 0);
+  attribute(far_vertices(mesh, scan, options.limit), mesh, mean_edge(mesh, scan), deviation);
+  LocalRefinementOptions used = options;
+  if (options.most_places < deviation.size()) {
+    std::vector<double> sorted = deviation;
+    const auto next = sorted.begin() + static_cast<std::ptrdiff_t>(options.most_places);
+    std::nth_element(sorted.begin(), next, sorted.end(), std::greater<>());
+    used.limit = std::max(used.limit, *next);
+  }
+  return refine_places(mesh, scan, deviation, used);
+}
+
+BoundedRefinementResult refine_within(SurfaceMesh& mesh, const ReferenceSurface& scan,
+                                      const LocalRefinementOptions& options, const Progress& progress) {
+  check(options);
   const TriangleTree tree(scan.mesh);
-  const double edge = std::sqrt(4 / std::numbers::sqrt3 * scan.area / static_cast<double>(mesh.triangles.size()));
-  PatchGoal goal;
-  goal.limit = (1 - reserve) * options.limit;
-  goal.fidelity = options.fidelity_of_diagonal * scan.diagonal;
-  goal.least_angle_deg = options.least_angle_deg;
-  goal.edge = edge;
-  LocalRefinementResult result;
-  int rings = rings_of_patch;
-  for (int round = 0; round < options.rounds && rings <= most_rings; ++round) {
-    progress("local refinement", static_cast<double>(round) / options.rounds);
-    const DeviationBound bound = bound_deviation(mesh, scan.mesh, tree, {.limit = goal.limit});
-    result.deviation_before_last_round = bound.upper();
-    if (result.deviation_before_last_round <= goal.limit) break;
-    const std::vector<Place> places = places_beyond(mesh, scan, bound, goal.limit, edge);
-    if (!mend(mesh, {scan, tree}, places, rings, goal, options.most_vertices, result)) ++rings;
+  LocalRefinementOptions left = options;
+  BoundedRefinementResult result;
+  for (int round = 0;; ++round) {
+    progress("deviation", static_cast<double>(round) / options.rounds);
+    const DeviationBound bound = bound_deviation(mesh, scan.mesh, tree, {.limit = goal_limit(options)});
+    result.largest_deviation = bound.upper();
+    if (result.largest_deviation <= options.limit || round == options.rounds) break;
+    FarPoints far;
+    for (std::uint32_t f = 0; f < scan.mesh.triangles.size(); ++f)
+      if (bound.to_mesh.upper[f] > goal_limit(options))
+        far.add(bound.to_mesh.farthest[f], scan.face_normals[f], bound.to_mesh.upper[f]);
+    std::vector<double> deviation = bound.to_reference.upper;
+    attribute(far, mesh, mean_edge(mesh, scan), deviation);
+    left.most_vertices = options.most_vertices - std::min(options.most_vertices, result.changes.inserted);
+    const LocalRefinementResult changes = refine_places(mesh, scan, deviation, left);
+    result.changes.patches += changes.patches;
+    result.changes.inserted += changes.inserted;
+    if (changes.patches == 0) break;
   }
   return result;
 }

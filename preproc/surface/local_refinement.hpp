@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <vector>
 
 namespace scan2fea {
 
@@ -20,23 +21,35 @@ struct LocalRefinementOptions {
   // Smaller angles are not made, nor made smaller; in [0, 60). Higher leaves less room to come near.
   double least_angle_deg = 35;
   std::size_t most_vertices = std::numeric_limits<std::size_t>::max();  // inserted; each makes two triangles more
-  // Of bounding and mending; each costs a bound of the whole surface. At least 1; to know that the limit is reached, 2.
+  // Of refine_worst: where more places are beyond the limit, only so many of the worst are mended. At least 1.
+  std::size_t most_places = std::numeric_limits<std::size_t>::max();
+  // Of refine_within, each bounded; at least 1.
   int rounds = 10;
 };
 
 struct LocalRefinementResult {
-  // An upper bound, two-sided, model units. Where it is above the limit, a round of mending has followed that was not
-  // bounded any more.
-  double deviation_before_last_round = 0;
   std::size_t patches = 0;   // that came nearer
   std::size_t inserted = 0;  // vertices
 };
 
-// Precondition: `mesh` is closed, manifold and free of self-intersections, and so it is afterwards, with the same genus
-// and components. The enclosed volume changes a little, by the places that are mended (see preserve_volume.hpp).
-// Throws WrongUsage for options out of range, Cancelled. Deterministic for any number of threads.
-// Not guaranteed: that the limit is reached (the result says how near it came), and the fewest triangles.
-LocalRefinementResult refine_within(SurfaceMesh& mesh, const ReferenceSurface& scan,
-                                    const LocalRefinementOptions& options, const Progress& progress = {});
+// Both want `mesh` closed, manifold and free of self-intersections, and so it is afterwards, with the same genus and
+// components. The enclosed volume changes a little, by the places that are mended (see preserve_volume.hpp).
+// They throw WrongUsage for options out of range, Cancelled. Deterministic for any number of threads.
+
+// One round, where samples show that it is needed: `deviation`, per face of `mesh`, of a fit (see ShapeFitResult), and
+// the scan's vertices, at most six a face. Needs little memory, however large the scan: no tree of it, but a pass over
+// it for each set of places that are apart. Not guaranteed: that the limit is reached.
+LocalRefinementResult refine_worst(SurfaceMesh& mesh, const ReferenceSurface& scan, std::vector<double> deviation,
+                                   const LocalRefinementOptions& options, const Progress& progress = {});
+
+struct BoundedRefinementResult {
+  double largest_deviation = 0;  // an upper bound, two-sided, model units
+  LocalRefinementResult changes;
+};
+
+// Rounds of bounding and mending until the limit holds for every point, or nothing helps: the result says how near it
+// came. Not guaranteed: the fewest triangles. Each round costs a bound of the whole surface.
+BoundedRefinementResult refine_within(SurfaceMesh& mesh, const ReferenceSurface& scan,
+                                      const LocalRefinementOptions& options, const Progress& progress = {});
 
 }  // namespace scan2fea

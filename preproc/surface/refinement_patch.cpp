@@ -14,6 +14,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <numeric>
 #include <optional>
 #include <unordered_map>
@@ -33,18 +35,6 @@ constexpr double longest_scan_edge = 0.7;
 // Where the fit's extra weight on far samples begins, over the limit, and its most.
 constexpr double tail_of_limit = 0.5;
 constexpr double most_lift = 300;
-
-void grow(BoundingBox& box, const Vec3& p) {
-  box.low = box.low.cwiseMin(p);
-  box.high = box.high.cwiseMax(p);
-}
-
-BoundingBox box_of(const SurfaceMesh& mesh, const Triangle& t) {
-  BoundingBox box{mesh.vertices[t[0]], mesh.vertices[t[0]]};
-  grow(box, mesh.vertices[t[1]]);
-  grow(box, mesh.vertices[t[2]]);
-  return box;
-}
 
 bool meet(const BoundingBox& a, const BoundingBox& b) {
   return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
@@ -86,7 +76,8 @@ SurfaceMesh selected(const SurfaceMesh& mesh, const std::vector<bool>& keep) {
 // One state of a patch, and how good it is.
 struct Trial {
   SurfaceMesh patch;
-  bool sound = false;
+  bool sound = false;         // meets nothing, and is within the box
+  std::size_t inverted = 0;   // faces
   double merit = 0;           // sum of ((deviation - limit) / limit)^4 over the faces of both sides beyond the limit
   double missing_angles = 0;  // degrees
   double shape = 0;           // sum of F(eta)
@@ -104,15 +95,17 @@ class Surroundings {
  public:
   Surroundings(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& patch_faces,
                const std::vector<std::uint32_t>& patch_vertices, const SurfaceMesh& patch,
-               const std::vector<bool>& fixed, const BoundingBox& box, const SearchedScan& scan, const PatchGoal& goal)
-      : goal_(goal), fixed_(fixed), box_(box), shared_(patch_vertices.size()) {
+               const std::vector<bool>& fixed, const BoundingBox& box, const SurfaceMesh& scan,
+               const std::vector<std::uint32_t>& scan_faces, const PatchGoal& goal, double edge)
+      : goal_(goal), fixed_(fixed), box_(box), edge_(edge), shared_(patch_vertices.size()) {
     std::vector<std::uint32_t> around;
     for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f)
-      if (meet(box_of(mesh, mesh.triangles[f]), box) && !std::binary_search(patch_faces.begin(), patch_faces.end(), f))
+      if (meet(face_box(mesh, mesh.triangles[f]), box) &&
+          !std::binary_search(patch_faces.begin(), patch_faces.end(), f))
         around.push_back(f);
     std::vector<std::uint32_t> vertices = patch_vertices;
     frozen_ = part_of(mesh, around, vertices);
-    cut_scan(scan, patch);
+    cut_scan(scan, scan_faces, patch);
   }
 
   bool has_scan() const { return fit_scan_.has_value(); }
@@ -142,14 +135,12 @@ class Surroundings {
   }
 
  private:
-  void cut_scan(const SearchedScan& scan, const SurfaceMesh& patch) {
-    std::vector<std::uint32_t> faces, vertices;
-    scan.tree.for_each_overlap(box_, [&](std::uint32_t f) { faces.push_back(f); });
-    if (faces.empty()) return;
-    std::sort(faces.begin(), faces.end());
-    scan_ = part_of(scan.surface.mesh, faces, vertices);
+  void cut_scan(const SurfaceMesh& scan, const std::vector<std::uint32_t>& scan_faces, const SurfaceMesh& patch) {
+    if (scan_faces.empty()) return;
+    std::vector<std::uint32_t> vertices;
+    scan_ = part_of(scan, scan_faces, vertices);
     const SurfaceMesh fine =
-        refine_scan(scan_, {std::vector<double>(scan_.vertices.size(), goal_.edge)}, longest_scan_edge, 8).mesh;
+        refine_scan(scan_, {std::vector<double>(scan_.vertices.size(), edge_)}, longest_scan_edge, 8).mesh;
 
     const SurfaceMesh around = with_frozen(patch);
     const VertexStars stars(around);
@@ -160,7 +151,7 @@ class Surroundings {
     std::vector<Vec3> centroids(fine.triangles.size());
     for (std::size_t f = 0; f < centroids.size(); ++f) centroids[f] = centroid(fine, fine.triangles[f]);
     const std::vector<Vec3> fine_normals = face_normals(fine);
-    const std::vector<std::uint32_t> start = nearest_vertices(centroids, fine_normals, around, goal_.edge);
+    const std::vector<std::uint32_t> start = nearest_vertices(centroids, fine_normals, around, edge_);
     std::vector<bool> fits(fine.triangles.size()), answered(fine.triangles.size());
     const auto is_of_patch = [&](std::uint32_t face) { return face < patch.triangles.size(); };
     for (std::size_t f = 0; f < fits.size(); ++f) {
@@ -191,6 +182,7 @@ class Surroundings {
   void fit(SurfaceMesh& patch) const {
     ShapeFitOptions options;
     options.rounds = 6;
+    options.hold_small_faces = true;
     options.fidelity_of_diagonal = std::min(0.09, goal_.fidelity / fit_scan_->diagonal);
     options.lift_tail_of_diagonal = tail_of_limit * goal_.limit / fit_scan_->diagonal;
     options.most_lift = most_lift;
@@ -211,8 +203,8 @@ class Surroundings {
     if (!find_self_intersections(around, own).empty()) return;
     const SurfaceDefects defects =
         find_defects(patch, *fit_scan_, scan_vertices_of_faces(patch, *fit_scan_), goal_.least_angle_deg);
-    if (!defects.meshable()) return;
     trial.sound = true;
+    trial.inverted = defects.inverted.size();
     trial.missing_angles = defects.missing_angles_deg;
     trial.shape = 0;
     for (const Triangle& t : patch.triangles)
@@ -237,7 +229,7 @@ class Surroundings {
       const auto& [a, b, c] = patch.triangles[f];
       const Vec3 at = closest_point_on_triangle(point, patch.vertices[a], patch.vertices[b], patch.vertices[c]);
       double squared = (point - at).squaredNorm();
-      if (area_vector(patch, patch.triangles[f]).dot(normal) < 0) squared += goal_.edge * goal_.edge;
+      if (area_vector(patch, patch.triangles[f]).dot(normal) < 0) squared += edge_ * edge_;
       if (squared >= least) continue;
       least = squared;
       nearest = f;
@@ -248,6 +240,7 @@ class Surroundings {
   const PatchGoal& goal_;
   const std::vector<bool>& fixed_;
   const BoundingBox& box_;
+  double edge_;
   std::size_t shared_;  // vertices of the patch as it was, which come first in frozen_
   SurfaceMesh frozen_;
   SurfaceMesh scan_;      // within the box
@@ -277,43 +270,53 @@ std::vector<Index> edges_around(const HalfedgeMesh& mesh, Index face) {
 std::optional<Trial> best_of(std::vector<Trial>& trials, const Trial& now) {
   std::optional<Trial> best;
   for (Trial& t : trials) {
-    if (!t.sound || t.missing_angles > now.missing_angles) continue;
+    if (!t.sound || t.inverted > now.inverted || t.missing_angles > now.missing_angles) continue;
     if (!best || t.is_better(*best)) best = std::move(t);
   }
   return best;
 }
 
-// One step: what lowers the deviation most, changes without new vertices first.
+// One step: what lowers the deviation most; the cheaper ways first, and no other where they reach the limit.
 std::optional<Trial> next_state(const Trial& now, const Surroundings& surroundings, bool may_insert) {
+  std::vector<Trial> trials;
+  trials.push_back(surroundings.fitted(now.patch));
+  std::optional<Trial> best = best_of(trials, now);
+  if (best && best->merit == 0) return best;
+
   const HalfedgeMesh mesh(now.patch);
   const std::vector<Index> edges = edges_around(mesh, now.worst);
-  std::vector<Trial> trials(1 + edges.size());
-  tbb::parallel_for(std::size_t{0}, trials.size(), [&](std::size_t i) {
+  trials.assign(edges.size() + 1, {});
+  tbb::parallel_for(std::size_t{0}, edges.size(), [&](std::size_t i) {
     HalfedgeMesh changed = mesh;
-    if (i > 0) {
-      if (!changed.can_flip(edges[i - 1])) return;
-      changed.flip(edges[i - 1]);
-    }
+    if (!changed.can_flip(edges[i])) return;
+    changed.flip(edges[i]);
     trials[i] = surroundings.fitted(changed.to_surface());
   });
-  std::optional<Trial> best = best_of(trials, now);
+  if (best) trials.back() = std::move(*best);
+  best = best_of(trials, now);
   if (!may_insert || (best && best->merit <= good_gain * now.merit)) return best;
-  trials.assign(edges.size(), {});
-  tbb::parallel_for(std::size_t{0}, trials.size(), [&](std::size_t i) {
+
+  trials.assign(edges.size() + 1, {});
+  tbb::parallel_for(std::size_t{0}, edges.size(), [&](std::size_t i) {
     HalfedgeMesh changed = mesh;
     const Vec3 middle = 0.5 * (mesh.points[mesh.origin(edges[i])] + mesh.points[mesh.target(edges[i])]);
     const Index v = changed.split_edge(edges[i], middle);
     restore_delaunay(changed, v, {.crease_deg = 90});
     trials[i] = surroundings.fitted(changed.to_surface());
   });
-  if (best) trials.push_back(std::move(*best));
+  if (best) trials.back() = std::move(*best);
   return best_of(trials, now);
 }
 
 }  // namespace
 
+BoundingBox face_box(const SurfaceMesh& mesh, const Triangle& t) {
+  const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+  return {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
+}
+
 RefinementPatch::RefinementPatch(const SurfaceMesh& mesh, const VertexStars& stars, std::uint32_t seed, int rings,
-                                 double reach) {
+                                 double deviation) {
   std::vector<std::uint32_t> inner(mesh.triangles[seed].begin(), mesh.triangles[seed].end());
   const auto add_stars = [&](std::size_t first) {
     const std::size_t last = inner.size();
@@ -352,16 +355,19 @@ RefinementPatch::RefinementPatch(const SurfaceMesh& mesh, const VertexStars& sta
     grown = inner.size() > first;
     if (grown) add_stars(first);
   }
+  edge_ = std::sqrt(4 / std::numbers::sqrt3 * surface_area(patch_) / static_cast<double>(faces_.size()));
+  const double reach = 1.1 * deviation + 0.3 * edge_;
   box_ = bounding_box(patch_.vertices);
   box_.low.array() -= reach;
   box_.high.array() += reach;
 }
 
-bool RefinementPatch::improve(const SurfaceMesh& mesh, const SearchedScan& scan, const PatchGoal& goal) {
-  const Surroundings surroundings(mesh, faces_, vertices_, patch_, fixed_, box_, scan, goal);
-  if (!surroundings.has_scan()) return false;
+PatchOutcome RefinementPatch::improve(const SurfaceMesh& mesh, const SurfaceMesh& scan,
+                                      const std::vector<std::uint32_t>& scan_faces, const PatchGoal& goal) {
+  const Surroundings surroundings(mesh, faces_, vertices_, patch_, fixed_, box_, scan, scan_faces, goal, edge_);
+  if (!surroundings.has_scan()) return {};
   Trial now = surroundings.judged(patch_);
-  if (!now.sound) return false;
+  if (!now.sound) return {};
   bool improved = false;
   for (int step = 0; step < most_steps && now.merit > 0; ++step) {
     std::optional<Trial> next = next_state(now, surroundings, inserted() < goal.most_vertices);
@@ -370,7 +376,7 @@ bool RefinementPatch::improve(const SurfaceMesh& mesh, const SearchedScan& scan,
     patch_ = now.patch;
     improved = true;
   }
-  return improved;
+  return {.improved = improved, .reached = now.merit == 0};
 }
 
 void RefinementPatch::write(SurfaceMesh& mesh) const {

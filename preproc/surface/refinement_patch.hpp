@@ -6,9 +6,10 @@
 // it is, so that the triangles around are not disturbed and patches apart from each other can be worked on at once.
 #pragma once
 
-#include "preproc/surface/reference_surface.hpp"
-#include "quality/triangle_tree.hpp"
+#include "preproc/mesh/surface_mesh.hpp"
+#include "preproc/surface/adjacency.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -22,27 +23,29 @@ struct PatchGoal {
   std::size_t most_vertices = 0;  // that may be inserted
 };
 
-// The scan and a tree of all its faces.
-struct SearchedScan {
-  const ReferenceSurface& surface;
-  const TriangleTree& tree;
+struct PatchOutcome {
+  bool improved = false;  // came nearer to the limit
+  bool reached = false;   // is within it
 };
+
+BoundingBox face_box(const SurfaceMesh& mesh, const Triangle& t);
 
 class RefinementPatch {
  public:
-  // The faces around the vertices of face `seed` and those within `rings` rings of them. `reach`: how far from the
-  // patch the scan and the surface are looked at, at least the deviation there. O(faces of the patch), and a bit a
-  // face of the mesh.
-  RefinementPatch(const SurfaceMesh& mesh, const VertexStars& stars, std::uint32_t seed, int rings, double reach);
+  // The faces around the vertices of face `seed` and those within `rings` rings of them. `deviation`: of the place; so
+  // far, and a bit more, the scan and the surface around are looked at. O(faces of the patch).
+  RefinementPatch(const SurfaceMesh& mesh, const VertexStars& stars, std::uint32_t seed, int rings, double deviation);
 
   // Everything that `improve` reads and writes lies in here: patches whose boxes do not meet may be improved at once
   // and written one after the other.
   const BoundingBox& box() const { return box_; }
+  const std::vector<std::uint32_t>& faces() const { return faces_; }
 
-  // Whether the patch came nearer to the limit. Never passes through itself or the surface around, never inverts a
-  // face against the scan. A few ms a trial and thousand scan faces within reach; about 20 trials a step, at most 6
-  // steps. Deterministic, whatever the number of threads.
-  bool improve(const SurfaceMesh& mesh, const SearchedScan& scan, const PatchGoal& goal);
+  // `scan_faces`: those in the box, ascending. The patch never passes through itself or the surface around, and never
+  // inverts a face against the scan. A few ms a trial and thousand scan faces; about 20 trials a step, at most 6 steps.
+  // Deterministic, whatever the number of threads.
+  PatchOutcome improve(const SurfaceMesh& mesh, const SurfaceMesh& scan, const std::vector<std::uint32_t>& scan_faces,
+                       const PatchGoal& goal);
 
   std::size_t inserted() const { return patch_.vertices.size() - vertices_.size(); }
 
@@ -54,6 +57,7 @@ class RefinementPatch {
   std::vector<std::uint32_t> vertices_;  // of the mesh, in the order of the patch's
   std::vector<bool> fixed_;              // per vertex: on the patch's rim
   SurfaceMesh patch_;
+  double edge_ = 0;  // mean edge length of the patch as it was
   BoundingBox box_;
 };
 

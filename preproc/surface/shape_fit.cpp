@@ -290,19 +290,21 @@ class Fitter {
       for (std::size_t f = range.begin(); f < range.end(); ++f) {
         FaceFit fit;
         fit.normal = normals_[f];
+        const double area = area_vector(mesh_, mesh_.triangles[f]).norm() / 2;
+        const double mean_area = scan_.area / static_cast<double>(fits_.size());
+        const double hold = options_.hold_small_faces && area > 0 ? std::clamp(mean_area / area, 1.0, 100.0) : 1.0;
         for (std::uint32_t k = by_face.first[f]; k < by_face.first[f + 1]; ++k) {
           const std::uint32_t s = by_face.order[k];
           const Vec3 to_target = forward_.samples[s].point - point_at(mesh_, locations_[s]);
-          const double w = share * weight_unit_ * forward_.samples[s].weight * lift(to_target.squaredNorm());
+          const double w = hold * share * weight_unit_ * forward_.samples[s].weight * lift(to_target.squaredNorm());
           add_sample(fit, locations_[s].barycentric, to_target, w, locations_[s].clamped);
         }
         if (options_.both_sides && has_free_vertex(f)) {
-          const double area = area_vector(mesh_, mesh_.triangles[f]).norm() / 2;
           for (std::size_t k = 0; k < face_samples.size(); ++k) {
             const Vec3 on_scan = point_at(scan_.mesh, on_scan_[face_samples.size() * f + k]);
             const Vec3 to_target = on_scan - point_at(mesh_, {static_cast<std::uint32_t>(f), false, face_samples[k]});
-            add_sample(fit, face_samples[k], to_target, share * weight_unit_ * area / 4 * lift(to_target.squaredNorm()),
-                       false);
+            add_sample(fit, face_samples[k], to_target,
+                       hold * share * weight_unit_ * area / 4 * lift(to_target.squaredNorm()), false);
           }
         }
         fits_[f] = fit;
@@ -313,16 +315,17 @@ class Fitter {
   void measure(ShapeFitResult& result) const {
     double sum = 0;
     double total = 0;
-    double largest = 0;
-    const auto add = [&](const Vec3& p, const Vec3& q, double weight) {
+    std::vector<double>& largest = result.largest_distance_of_face;
+    largest.assign(mesh_.triangles.size(), 0);
+    const auto add = [&](const Vec3& p, const Vec3& q, double weight, std::uint32_t face) {
       const double squared = (p - q).squaredNorm();
       sum += weight * squared;
       total += weight;
-      largest = std::max(largest, squared);
+      largest[face] = std::max(largest[face], squared);
     };
     const auto mean = [&] { return total > 0 ? std::sqrt(sum / total) : 0; };
     for (std::size_t s = 0; s < locations_.size(); ++s) {
-      add(forward_.samples[s].point, point_at(mesh_, locations_[s]), forward_.samples[s].weight);
+      add(forward_.samples[s].point, point_at(mesh_, locations_[s]), forward_.samples[s].weight, locations_[s].face);
     }
     result.rms_distance = mean();
     sum = total = 0;
@@ -330,10 +333,11 @@ class Fitter {
       const auto f = static_cast<std::uint32_t>(s / face_samples.size());
       if (!has_free_vertex(f)) continue;
       add(point_at(mesh_, {f, false, face_samples[s % face_samples.size()]}), point_at(scan_.mesh, on_scan_[s]),
-          area_vector(mesh_, mesh_.triangles[f]).norm());
+          area_vector(mesh_, mesh_.triangles[f]).norm(), f);
     }
     result.rms_distance = std::max(result.rms_distance, mean());
-    result.largest_distance = std::sqrt(largest);
+    for (double& d : largest) d = std::sqrt(d);
+    result.largest_distance = *std::max_element(largest.begin(), largest.end());
     result.samples = locations_.size() + on_scan_.size();
   }
 

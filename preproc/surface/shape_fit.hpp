@@ -42,6 +42,9 @@ struct ShapeFitOptions {
   // the largest distance for 0.002 in the edge ratio. Lower tails (0.0007) cost shape, and crossings in tight folds.
   std::optional<double> lift_tail_of_diagonal = 0.0015;
   double most_lift = 50;
+  // Samples weigh by area, so that the mean error is least: where faces are small, shape then outweighs fit. Where set,
+  // faces below the mean size hold to the scan as those of the mean size do, for a largest error that is small.
+  bool hold_small_faces = false;
   ShapeEnergy shape;
   // Where most vertices are fixed, only the samples around the free ones are looked at, and measured.
   VertexConstraints constraints;
@@ -54,6 +57,7 @@ struct ShapeFitResult {
   // Of the samples, the worse side, when they were located last (before the last sweeps), in model units.
   double rms_distance = 0;
   double largest_distance = 0;
+  std::vector<double> largest_distance_of_face;  // by the face that the sample was located on, or is of
   std::size_t samples = 0;
   double largest_step = 0;          // of a vertex, in the last sweep
   double fidelity_of_diagonal = 0;  // that the last round had

@@ -48,6 +48,9 @@ constexpr double fidelity_of_parts = 0.0003;
 constexpr double curve_tolerance = 0.00015;
 constexpr double noise_on_curves = 1.5;
 
+// Where a deviation must hold, shape gives way first.
+constexpr double least_angle_within_deg = 28;
+
 // Of the fit, in which it finds out how near the triangles can come.
 constexpr int first_rounds = 2;
 
@@ -61,23 +64,23 @@ struct FitPlan {
   double fidelity_of_diagonal;  // the dial between shape and fit, at the least
   double fidelity_of_residual;  // and over the RMS distance of the first fit
   int trials;
-  int rounds_for_worst;  // of local refinement where the largest distances are, see lower_worst
+  bool lowers_worst;  // see lower_worst
 };
 
 FitPlan plan_of(Effort effort) {
   switch (effort) {
     case Effort::low:
       return {
-          .rounds = 4, .fidelity_of_diagonal = 0.0013, .fidelity_of_residual = 7, .trials = 1, .rounds_for_worst = 0};
+          .rounds = 4, .fidelity_of_diagonal = 0.0013, .fidelity_of_residual = 7, .trials = 1, .lowers_worst = false};
     case Effort::normal:
       return {
-          .rounds = 8, .fidelity_of_diagonal = 0.0012, .fidelity_of_residual = 7, .trials = 1, .rounds_for_worst = 1};
+          .rounds = 8, .fidelity_of_diagonal = 0.0012, .fidelity_of_residual = 7, .trials = 1, .lowers_worst = true};
     case Effort::high:
       return {.rounds = 12,
               .fidelity_of_diagonal = 0.00095,
               .fidelity_of_residual = 5.7,
               .trials = 5,
-              .rounds_for_worst = 4};
+              .lowers_worst = true};
   }
   return {};
 }
@@ -177,6 +180,7 @@ Candidate by_lattice(Scan& scan, const SizingOptions& sizing, const FitPlan& pla
   candidate.net = std::move(lattice.net);
   ShapeFitOptions fit;
   fit.rounds = first_rounds + plan.rounds;
+  fit.hold_small_faces = sizing.sizing == Sizing::uniform && !sizing.factors.empty();
   fit.fidelity_of_diagonal = plan.fidelity_of_diagonal;
   fit.fidelity_of_residual = plan.fidelity_of_residual;
   if (scan.has_features()) {
@@ -242,6 +246,7 @@ Candidate by_contraction(Scan& scan, const SizingOptions& sizing, const Progress
     for (const auto& [a, b] : boundary_edges(fitted.mesh))
       fit.constraints[a] = fit.constraints[b] = VertexConstraint::fixed;
   }
+  fit.hold_small_faces = sizing.sizing == Sizing::uniform && !sizing.factors.empty();
   optimise_shape_and_fit(fitted.mesh, scan.reference(), fit, progress);
   const std::vector<Vec3> targets = fitted.mesh.vertices;
   finish(fitted, scan, {}, progress);
@@ -352,17 +357,18 @@ bool open_wedges(Candidate& candidate, Scan& scan) {
 
 // The largest distances are at a few fins and folds thinner than the triangles, far from all others: these places get
 // triangles of their own, so few that the count stays within what was asked for.
-void lower_worst(Candidate& candidate, Scan& scan, int rounds, SimplifyResult& result, const Progress& progress) {
-  constexpr double outlier = 14;           // over the RMS distance; 10 takes more shape than it gives
-  constexpr double most_vertices = 0.001;  // of the triangles: at most 0.2 % more triangles
+void lower_worst(Candidate& candidate, Scan& scan, SimplifyResult& result, const Progress& progress) {
+  constexpr double outlier = 14;             // over the RMS distance; 10 takes more shape than it gives
+  constexpr double vertices_a_face = 0.001;  // at most 0.2 % more triangles
+  constexpr std::size_t faces_a_place = 1500;
   LocalRefinementOptions options;
   options.limit = outlier * candidate.fit.rms_distance;
-  if (!(options.limit > 0) || rounds == 0 || scan.has_features()) return;
-  options.rounds = rounds;
+  if (!(options.limit > 0) || scan.has_features()) return;
   options.least_angle_deg = least_angle_deg;
-  options.most_vertices = static_cast<std::size_t>(most_vertices * static_cast<double>(result.faces_after));
+  options.most_vertices = static_cast<std::size_t>(vertices_a_face * static_cast<double>(result.faces_after));
+  options.most_places = 1 + result.faces_after / faces_a_place;
   SurfaceMesh refined = candidate.mesh;
-  refine_within(refined, scan.reference(), options, progress);
+  refine_worst(refined, scan.reference(), candidate.fit.largest_distance_of_face, options, progress);
   if (!preserve_volume_clear(refined, scan.mesh)) return;
   candidate.mesh = std::move(refined);
   result.faces_after = candidate.mesh.triangles.size();
@@ -377,15 +383,36 @@ void require_positive(double value, const char* what) {
                       .advice = {}});
 }
 
+// What the edge lengths leave too far is brought near place by place; then the exact volume. An upper bound of the
+// deviation is returned.
+double bring_within(SurfaceMesh& surface, Scan& scan, double deviation, const Progress& progress) {
+  constexpr double for_volume = 0.995;  // of the deviation: the rest is for the shift that restores the volume
+  LocalRefinementOptions options;
+  options.limit = for_volume * deviation;
+  options.least_angle_deg = least_angle_within_deg;
+  options.fidelity_of_diagonal = std::clamp(0.6 * deviation / scan.reference().diagonal, 0.0004, 0.0016);
+  refine_within(surface, scan.reference(), options, progress);
+  preserve_volume_clear(surface, scan.mesh);
+  return bound_deviation(surface, scan.mesh, {.limit = deviation}).upper();
+}
+
+double share_beyond(const OneSidedDeviation& side, double distance) {
+  const auto beyond = std::count_if(side.upper.begin(), side.upper.end(), [&](double d) { return d > distance; });
+  return static_cast<double>(beyond) / static_cast<double>(side.upper.size());
+}
+
 // The deviation of linear triangles goes with the edge length squared, place by place: a few surfaces are made, and the
-// edge lengths renewed from how far each came from the scan there (bounds, not samples).
+// edge lengths renewed from how far each came from the scan there (bounds, not samples), until local refinement can do
+// the rest.
 Candidate make_surface_within(Scan& scan, const LargestDeviation& wanted, const SimplifyOptions& options,
                               SimplifyResult& result, const Progress& progress) {
-  constexpr int most_trials = 6;
-  constexpr double margin = 0.7;          // of the bound, aimed at
+  constexpr int most_trials = 5;
+  constexpr double margin = 0.8;          // of the bound, aimed at
   constexpr double most_shrinking = 0.5;  // of an edge from trial to trial
   constexpr double most_growing = 2.8;    // after the first, whose lengths are a guess; later ones only shrink
   constexpr double shortest_edge = 0.5;   // over the deviation: shorter ones help nothing
+  constexpr double few_beyond = 0.03;     // of the faces, for local refinement: more are cheaper mended all at once
+  constexpr double most_beyond = 0.1;     // where there is no other way left
   // A deviation far below the scan's own facets asks for more; nothing is known there.
   const double most_triangles = 4 * static_cast<double>(scan.mesh.triangles.size());
   std::vector<double> length(scan.mesh.vertices.size(), first_edge * wanted.distance);
@@ -403,11 +430,16 @@ Candidate make_surface_within(Scan& scan, const LargestDeviation& wanted, const 
     Candidate surface =
         make_surface(scan, sizing, options, trial == 0 ? Effort::low : options.effort, result, progress);
     const DeviationBound bound = bound_deviation(surface.mesh, scan.mesh, {.limit = wanted.distance});
-    result.largest_deviation = bound.upper();
-    const bool better = best.mesh.triangles.empty() || result.largest_deviation < best_result.largest_deviation;
     const std::vector<double> deviation = scan.by_vertex(local_deviation(surface.mesh, scan.reference(), bound),
                                                          [](double a, double b) { return std::max(a, b); });
-    if (better) {
+    result.largest_deviation = bound.upper();
+    const bool last = trial + 1 == most_trials;
+    if (trial > 0 && !scan.has_features() &&
+        share_beyond(bound.to_reference, wanted.distance) <= (last ? most_beyond : few_beyond)) {
+      result.largest_deviation = bring_within(surface.mesh, scan, wanted.distance, progress);
+      result.faces_after = surface.mesh.triangles.size();
+    }
+    if (best.mesh.triangles.empty() || result.largest_deviation < best_result.largest_deviation) {
       best = std::move(surface);
       best_result = result;
     }
@@ -499,8 +531,8 @@ SimplifyResult simplify(const SurfaceMesh& mesh, SurfaceMesh& surface, const Sim
       sizing.factors = factors;
     }
     Candidate candidate = make_surface(scan, sizing, options, options.effort, result, progress);
-    if (result.method == SimplifyMethod::lattice)
-      lower_worst(candidate, scan, plan_of(options.effort).rounds_for_worst, result, progress);
+    if (plan_of(options.effort).lowers_worst && result.method == SimplifyMethod::lattice)
+      lower_worst(candidate, scan, result, progress);
     if (options.method == SimplifyMethod::lattice && !scan.has_creases()) open_wedges(candidate, scan);
     surface = std::move(candidate.mesh);
   }
