@@ -150,7 +150,7 @@ TEST(Simplify, DeviationBoundsAllPoints) {
 }
 
 TEST(Simplify, DeviationOutOfReachIsAnErrorOnlyWhereRequired) {
-  SurfaceMesh mesh = analytic::noisy(analytic::sphere(10, 3), 0.2, 1);
+  SurfaceMesh mesh = analytic::noisy(analytic::sphere(10, 2), 0.2, 1);
   SimplifyOptions options;
   options.size = LargestDeviation{.distance = 1e-3};
   EXPECT_THROW(simplify(mesh, options), NotMeshable);

@@ -414,7 +414,7 @@ Candidate make_surface_within(Scan& scan, const LargestDeviation& wanted, const 
   constexpr double few_beyond = 0.03;     // of the faces, for local refinement: more are cheaper mended all at once
   constexpr double most_beyond = 0.1;     // where there is no other way left
   // A deviation far below the scan's own facets asks for more; nothing is known there.
-  const double most_triangles = 4 * static_cast<double>(scan.mesh.triangles.size());
+  const double most_triangles = 32 * static_cast<double>(scan.mesh.triangles.size());
   std::vector<double> length(scan.mesh.vertices.size(), first_edge * wanted.distance);
   Candidate best;
   SimplifyResult best_result;

@@ -68,6 +68,14 @@ void check(const SizingOptions& options, const SurfaceMesh& mesh) {
           static_cast<double>(options.factors.size()), "the number of vertices");
 }
 
+// values[v] = of(v) for all v, on all cores.
+template <class Value>
+void set_each(std::vector<Value>& values, const auto& of) {
+  for_each_block(values.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t v = first; v < last; ++v) values[v] = of(v);
+  });
+}
+
 // One sweep of averaging: half of the old value, half of the neighbours' mean.
 template <class Value>
 void average_with_neighbours(const Scan& scan, std::vector<Value>& values, int sweeps) {
@@ -127,7 +135,7 @@ std::vector<double> log_length_from_curvature(const Scan& scan, double uniform_l
                                               double strength) {
   std::vector<Vec3> normals = vertex_normals(scan.mesh);
   average_with_neighbours(scan, normals, 4 * sweeps_factor);
-  for (Vec3& n : normals) n.normalize();
+  set_each(normals, [&](std::size_t v) { return Vec3(normals[v].normalized()); });
   std::vector<double> curvature2 = squared_curvature(scan, normals);
   average_with_neighbours(scan, curvature2, 5 * sweeps_factor);
 
@@ -137,7 +145,7 @@ std::vector<double> log_length_from_curvature(const Scan& scan, double uniform_l
   // On a part that is mostly flat the median is zero.
   const double offset = std::max(*middle, 1 / std::pow(flat_radius * uniform_length, 2));
   std::vector<double> phi(curvature2.size());
-  for (std::size_t v = 0; v < phi.size(); ++v) phi[v] = -0.5 * strength * std::log(curvature2[v] + offset);
+  set_each(phi, [&](std::size_t v) { return -0.5 * strength * std::log(curvature2[v] + offset); });
   return phi;
 }
 
@@ -154,14 +162,17 @@ void limit_gradation(const Scan& scan, double gradation, std::vector<double>& le
       }
     });
   };
-  for (std::uint32_t v = 0; v < length.size(); ++v) {
-    bool binds = false;
-    scan.for_each_neighbour(v, [&](std::uint32_t w) {
-      binds = binds ||
-              length[v] + gradation * (scan.mesh.vertices[w] - scan.mesh.vertices[v]).norm() < length[w] * (1 - 1e-9);
-    });
-    if (binds) queue.emplace(length[v], v);
-  }
+  std::vector<char> binds(length.size(), 0);
+  for_each_block(length.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t v = first; v < last; ++v) {
+      scan.for_each_neighbour(v, [&](std::uint32_t w) {
+        const double limit = length[v] + gradation * (scan.mesh.vertices[w] - scan.mesh.vertices[v]).norm();
+        if (limit < length[w] * (1 - 1e-9)) binds[v] = 1;
+      });
+    }
+  });
+  for (std::uint32_t v = 0; v < length.size(); ++v)
+    if (binds[v]) queue.emplace(length[v], v);
   while (!queue.empty()) {
     const auto [at, v] = queue.top();
     queue.pop();
@@ -198,7 +209,7 @@ void scale_to_count(const Scan& scan, const SizingOptions& options, const Compon
       scale[c] *= std::sqrt(share[c] / wanted);
       again = true;
     }
-    for (std::size_t v = 0; v < length.size(); ++v) length[v] *= scale[components.of_vertex[v]];
+    set_each(length, [&](std::size_t v) { return length[v] * scale[components.of_vertex[v]]; });
   }
 }
 
@@ -242,14 +253,15 @@ SizingField compute_sizing_field(const SurfaceMesh& mesh, const SizingOptions& o
 
   const Components components = find_components(mesh);
   std::vector<double> length(phi.size());
-  for (std::size_t v = 0; v < phi.size(); ++v) length[v] = std::exp(phi[v]);
+  set_each(length, [&](std::size_t v) { return std::exp(phi[v]); });
   // Clamps and gradation are relative to the scale, so it comes first; it is nearly one afterwards.
   scale_to_count(scan, options, components, length);
   if (options.sizing != Sizing::uniform || !options.factors.empty()) {
-    for (std::size_t v = 0; v < phi.size(); ++v)
-      phi[v] = std::log(std::clamp(length[v], options.smallest * uniform_length, options.largest * uniform_length));
+    set_each(phi, [&](std::size_t v) {
+      return std::log(std::clamp(length[v], options.smallest * uniform_length, options.largest * uniform_length));
+    });
     average_with_neighbours(scan, phi, 10 * sweeps_factor);
-    for (std::size_t v = 0; v < phi.size(); ++v) length[v] = std::exp(phi[v]);
+    set_each(length, [&](std::size_t v) { return std::exp(phi[v]); });
     // What the limit takes the scale gives back, and steepens again by as much; a few rounds end that.
     for (int round = 0; round < 4; ++round) {
       limit_gradation(scan, options.gradation, length);
