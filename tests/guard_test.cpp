@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 namespace scan2fea {
 namespace {
@@ -132,8 +133,16 @@ TEST(Defects, NoFaceIsInvertedBesideACreaseThatEndsInsideItsPatch) {
   const FeatureScan features(measured, find_features(fold).edges, 0.01);
   ASSERT_FALSE(features.sharp.empty());
   const ReferenceSurface scan(features);
-  const std::vector<std::uint32_t> patches(fold.triangles.size(), 0);
-  EXPECT_TRUE(find_defects(fold, scan, scan_vertices_of_faces(fold, scan, patches), 0).inverted.empty());
+  std::set<std::uint32_t> on_crease;
+  for (const auto& [a, b] : features.sharp) on_crease.insert({a, b});
+  FeatureNet net;
+  net.patch_of_face.assign(fold.triangles.size(), 0);
+  net.lines.emplace_back();
+  for (const std::uint32_t v : on_crease) {  // ascending in y, as the sheet's vertices are
+    net.lines[0].vertices.push_back({v, static_cast<double>(net.lines[0].points.size())});
+    net.lines[0].points.push_back(fold.vertices[v]);
+  }
+  EXPECT_TRUE(find_defects(fold, scan, scan_vertices_of_faces(fold, net, scan), 0).inverted.empty());
 }
 
 }  // namespace

@@ -10,17 +10,12 @@
 namespace scan2fea {
 namespace {
 
-// Whether any scan vertex connected to `start` within `radius` of `centre` has a normal on the side of `normal`. Around
-// the end of a crease both of its sides are connected.
+// Whether any scan vertex connected to `start` within `radius` of `centre` has a normal on the side of `normal`.
 bool scan_agrees(const ReferenceSurface& scan, std::uint32_t start, const Vec3& centre, double radius,
                  const Vec3& normal) {
   std::vector<std::uint32_t> reached{start};
   for (std::size_t k = 0; k < reached.size(); ++k) {
     if (scan.vertex_normals[reached[k]].dot(normal) > 0) return true;
-    if (!scan.next_copy.empty()) {
-      const std::uint32_t copy = scan.next_copy[reached[k]];
-      if (std::find(reached.begin(), reached.end(), copy) == reached.end()) reached.push_back(copy);
-    }
     for (const std::uint32_t corner : scan.stars.corners(reached[k])) {
       for (const std::uint32_t v : scan.mesh.triangles[corner / 3]) {
         if ((scan.mesh.vertices[v] - centre).norm() > radius) continue;

@@ -112,6 +112,7 @@ class Chains {
       ++degree[b];
     }
     for (const auto& [a, b] : sharp) length_[sets_.find(a)] += (scan.vertices[a] - scan.vertices[b]).norm();
+    for (const auto& [a, b] : boundary_edges(scan)) degree[a] = degree[b] = 0;  // ends there are not free
     for (std::uint32_t v = 0; v < degree.size(); ++v)
       if (degree[v] == 1) ++free_ends_[sets_.find(v)];
   }
@@ -136,10 +137,11 @@ std::vector<FeatureEdge> select_features(const SurfaceMesh& scan, std::vector<Fe
   for (int round = 0; round < most_rounds && !sharp.empty(); ++round)
     if (!join_small_patches(scan, normals, least_area, sharp)) break;
   Chains chains(scan, sharp);
+  const double shortest_open = selection.shortest_open_of_diagonal * bounding_box(scan.vertices).diagonal();
   std::erase_if(sharp, [&](const FeatureEdge& e) {
     const std::uint32_t chain = chains.of(e);
-    const double shortest = chains.has_free_end(chain) ? selection.shortest_open : selection.shortest_closed;
-    return chains.length(chain) < shortest * edge_length;
+    const double shortest = chains.has_free_end(chain) ? shortest_open : selection.shortest_closed * edge_length;
+    return chains.length(chain) < shortest;
   });
   return sharp;
 }

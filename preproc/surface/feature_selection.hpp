@@ -12,9 +12,10 @@ struct FeatureSelection {
   // Areas that creases cut out of the surface must have room for so many equilateral triangles; smaller ones are joined
   // with the neighbour from which the smoothest crease parts them. A scan's folds and specks are full of them.
   double least_triangles = 4;
-  // Creases that hang together and are shorter than so many edge lengths are dropped: those with free ends, which a scan
-  // has in its folds, and those without, such as the rim of a hole.
-  double shortest_open = 8;
+  // Creases that hang together and are shorter are dropped: those with ends inside the surface below this part of the
+  // bounding box's diagonal, since that is what the folds of organic scans have (the edges of a part hang together over
+  // several diagonals), and those without, such as the rim of a hole, below so many edge lengths.
+  double shortest_open_of_diagonal = 0.5;
   double shortest_closed = 3;
 };
 

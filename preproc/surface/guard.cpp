@@ -83,16 +83,18 @@ void mend(SurfaceMesh& mesh, FeatureNet& net, const ReferenceSurface& scan, cons
     // Only what is tangled is smoothed: the fit alone serves small angles better.
     SurfaceDefects tangled = defects;
     tangled.small_angles.clear();
-    std::vector<bool> around = vertices_around(mesh, faces_of(tangled), 1);
+    const std::vector<bool> tangle = vertices_around(mesh, faces_of(tangled), 1);
+    std::vector<bool> around = tangle;
     remove_fixed(around, options.constraints);
     if (!defects.inverted.empty() || round > 1) {
       smooth_worst(mesh, scan, near, around, smoothing_sweeps);
-      if (flip_worst(mesh, scan, near, around) > 0) smooth_worst(mesh, scan, near, around, smoothing_sweeps);
+      if (flip_worst(mesh, scan, near, net.empty() ? around : tangle, edges_of(net)) > 0)
+        smooth_worst(mesh, scan, near, around, smoothing_sweeps);
     }
   } else if (round > 0) {
-    flip_worst(mesh, scan, near, movable);
+    flip_worst(mesh, scan, near, net.empty() ? movable : region, edges_of(net));
   }
-  // Vertices on lines may slide.
+  // Vertices on lines may slide, and edges that end on a line flip.
   refit(mesh, net, scan, net.empty() ? movable : region,
         std::min(options.loosest_fidelity_of_diagonal, options.fidelity_of_diagonal * std::pow(1.5, round + 1)),
         nearest_to_scan);

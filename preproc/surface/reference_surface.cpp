@@ -1,9 +1,5 @@
 #include "preproc/surface/reference_surface.hpp"
 
-#include <algorithm>
-#include <numeric>
-#include <tuple>
-
 namespace scan2fea {
 
 // Qualified calls: the members have the functions' names.
@@ -21,16 +17,6 @@ ReferenceSurface::ReferenceSurface(const SurfaceMesh& scan) : ReferenceSurface(s
 
 ReferenceSurface::ReferenceSurface(const FeatureScan& scan) : ReferenceSurface(scan.cut.mesh, scan.scan) {
   patch_of_vertex = scan.patches.of_vertex;
-  next_copy.resize(patch_of_vertex.size());
-  std::iota(next_copy.begin(), next_copy.end(), 0U);
-  const std::vector<std::uint32_t>& original = scan.cut.vertex_of_copy;
-  std::vector<std::uint32_t> order = next_copy;
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return std::tuple(original[a], patch_of_vertex[a], a) < std::tuple(original[b], patch_of_vertex[b], b);
-  });
-  for (std::size_t i = 1; i < order.size(); ++i)
-    if (original[order[i]] == original[order[i - 1]] && patch_of_vertex[order[i]] == patch_of_vertex[order[i - 1]])
-      std::swap(next_copy[order[i]], next_copy[order[i - 1]]);
 }
 
 }  // namespace scan2fea

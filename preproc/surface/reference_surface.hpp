@@ -24,9 +24,6 @@ struct ReferenceSurface {
   // Which points of the scan and of a result may stand for one another, see FeatureNet::patch_of_face; empty without
   // features.
   std::vector<std::uint32_t> patch_of_vertex;
-  // Per vertex the next one at the same place and on the same patch, in a ring: the sides of a crease that ends inside
-  // its patch. Empty without features.
-  std::vector<std::uint32_t> next_copy;
   double diagonal = 0;  // of the bounding box
   double area = 0;
 

@@ -102,12 +102,14 @@ void smooth_worst(SurfaceMesh& mesh, const ReferenceSurface& scan, const std::ve
 }
 
 std::size_t flip_worst(SurfaceMesh& mesh, const ReferenceSurface& scan, const std::vector<std::uint32_t>& near,
-                       const std::vector<bool>& movable) {
+                       const std::vector<bool>& around, const std::vector<FeatureEdge>& kept) {
   using Index = HalfedgeMesh::Index;
   HalfedgeMesh halfedges(mesh);
   std::size_t flips = 0;
   for (Index h = 0; h < 3 * halfedges.face_slots(); ++h) {
-    if (!movable[halfedges.origin(h)] || !movable[halfedges.target(h)] || !halfedges.can_flip(h)) continue;
+    const Index a = halfedges.origin(h), b = halfedges.target(h);
+    if (!around[a] || !around[b] || std::binary_search(kept.begin(), kept.end(), feature_edge(a, b))) continue;
+    if (!halfedges.can_flip(h)) continue;
     const Index o = halfedges.opposite(h);
     const std::uint32_t f = HalfedgeMesh::face(h);
     const std::uint32_t g = HalfedgeMesh::face(o);
@@ -115,8 +117,6 @@ std::size_t flip_worst(SurfaceMesh& mesh, const ReferenceSurface& scan, const st
       return signed_quality(mesh, t, scan.vertex_normals[near[face]]);
     };
     const double before = std::min(quality(halfedges.triangle(f), f), quality(halfedges.triangle(g), g));
-    const Index a = halfedges.origin(h);
-    const Index b = halfedges.target(h);
     const Index c = halfedges.target(HalfedgeMesh::next(h));
     const Index d = halfedges.target(HalfedgeMesh::next(o));
     const double after = std::min(quality({a, d, c}, f), quality({d, b, c}, g));

@@ -22,10 +22,10 @@ double signed_quality(const SurfaceMesh& mesh, const Triangle& t, const Vec3& no
 void smooth_worst(SurfaceMesh& mesh, const ReferenceSurface& scan, const std::vector<std::uint32_t>& near,
                   const std::vector<bool>& movable, int sweeps);
 
-// Flips edges between vertices of `movable` where that raises the worse signed quality of the two faces, best first
-// come; returns the number of flips. Faces keep their indices.
+// Flips edges between vertices of `around`, but for `kept` ones (sorted), where that raises the worse signed quality of
+// the two faces, best first come; returns the number of flips. Faces keep their indices.
 std::size_t flip_worst(SurfaceMesh& mesh, const ReferenceSurface& scan, const std::vector<std::uint32_t>& near,
-                       const std::vector<bool>& movable);
+                       const std::vector<bool>& around, const std::vector<FeatureEdge>& kept = {});
 
 // Pushes the faces of pairs that share no vertex apart, along the difference of their normals, to the sides on which
 // the scan has them, until they clear or have moved by half a mean edge. Returns whether they all cleared.
