@@ -131,9 +131,11 @@ PipelineResult run_pipeline(SurfaceMesh scan, const PipelineOptions& options, co
             [&](StageRecord& record) { describe(enrich(result.surface, *options.enrich, progress), record); });
   if (options.simplify)
     log.run("simplify", [&](StageRecord& record) {
-      SimplifyResult simplified = options.enrich ? simplify(result.surface, *options.simplify, progress)
-                                                 : simplify(result.scan, result.surface, *options.simplify, progress);
-      describe(simplified, options.simplify->size, record);
+      SimplifyOptions simplification = *options.simplify;
+      simplification.for_tetrahedra = options.tetrahedralize.has_value();
+      SimplifyResult simplified = options.enrich ? simplify(result.surface, simplification, progress)
+                                                 : simplify(result.scan, result.surface, simplification, progress);
+      describe(simplified, simplification.size, record);
       result.features = std::move(simplified.features);
     });
   if (options.tetrahedralize) {

@@ -271,7 +271,8 @@ Candidate by_collapse(Scan& scan, double faces, const SimplifyOptions& options, 
   guard.keep_volume = false;
   const GuardResult guarded = guard_surface(candidate.mesh, scan.reference(), guard, progress);
   candidate.crossings_mended = guarded.before.crossings.size();
-  if (!guarded.clean()) candidate.failure = describe(guarded.after);
+  // It may end in needles that turn over, as the paper's does; what is sound for a mesher crosses nothing.
+  if (!guarded.after.crossings.empty()) candidate.failure = describe(guarded.after);
   return candidate;
 }
 
@@ -346,6 +347,10 @@ Candidate make_surface(Scan& scan, const SizingOptions& sizing, const SimplifyOp
   result.faces_after = candidate.mesh.triangles.size();
   result.feature_edges_kept = edges_of(candidate.net).size();
   return candidate;
+}
+
+bool opens_wedges(const SimplifyOptions& options, const Scan& scan) {
+  return options.for_tetrahedra && options.method == SimplifyMethod::lattice && !scan.has_creases();
 }
 
 // What bounds the tetrahedra's angles; what is sharp in the scan stays so.
@@ -453,7 +458,7 @@ Candidate make_surface_within(Scan& scan, const LargestDeviation& wanted, const 
   }
   // The deviation that was asked for comes before the tetrahedra.
   Candidate opened = best;
-  if (options.method == SimplifyMethod::lattice && !scan.has_creases() && open_wedges(opened, scan)) {
+  if (opens_wedges(options, scan) && open_wedges(opened, scan)) {
     const double reached = bound_deviation(opened.mesh, scan.mesh, {.limit = wanted.distance}).upper();
     if (!wanted.required || reached <= wanted.distance) {
       best = std::move(opened);
@@ -534,7 +539,7 @@ SimplifyResult simplify(const SurfaceMesh& mesh, SurfaceMesh& surface, const Sim
     Candidate candidate = make_surface(scan, sizing, options, options.effort, result, progress);
     if (plan_of(options.effort).lowers_worst && result.method == SimplifyMethod::lattice)
       lower_worst(candidate, scan, result, progress);
-    if (options.method == SimplifyMethod::lattice && !scan.has_creases()) open_wedges(candidate, scan);
+    if (opens_wedges(options, scan)) open_wedges(candidate, scan);
     surface = std::move(candidate.mesh);
   }
   return result;
