@@ -7,6 +7,7 @@ namespace scan2fea {
 FeatureScan::FeatureScan(const SurfaceMesh& mesh, std::vector<FeatureEdge> sharp_edges, double tolerance)
     : scan(mesh), sharp(std::move(sharp_edges)), border(boundary_edges(mesh)), curve_tolerance(tolerance) {
   std::sort(sharp.begin(), sharp.end());
+  if (empty()) return;
   cut = cut_along(mesh, sharp);
   patches = find_components(cut.mesh);
 }

@@ -21,7 +21,7 @@ struct FeatureScan {
   std::vector<FeatureEdge> sharp;   // sorted
   std::vector<FeatureEdge> border;  // sorted
   double curve_tolerance = 0;       // how far chords of the result may be from the curves, model units
-  CutSurface cut;                   // along the sharp edges
+  CutSurface cut;                   // along the sharp edges; without features, nothing
   Components patches;               // of cut.mesh
 };
 
