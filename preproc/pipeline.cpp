@@ -132,7 +132,7 @@ PipelineResult run_pipeline(SurfaceMesh scan, const PipelineOptions& options, co
   if (options.simplify)
     log.run("simplify", [&](StageRecord& record) {
       SimplifyOptions simplification = *options.simplify;
-      simplification.for_tetrahedra = options.tetrahedralize.has_value();
+      simplification.for_tetrahedra |= options.tetrahedralize.has_value();
       SimplifyResult simplified = options.enrich ? simplify(result.surface, simplification, progress)
                                                  : simplify(result.scan, result.surface, simplification, progress);
       describe(simplified, simplification.size, record);

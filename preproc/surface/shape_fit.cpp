@@ -27,6 +27,8 @@ constexpr double longest_step = 0.3;
 // More samples a face than this do not improve the fit; on a scan far finer than the mesh they would take its time and
 // memory.
 constexpr std::size_t most_samples_per_face = 12;
+// Of parts with edges: planes and cylinders need fewer.
+constexpr std::size_t most_samples_per_face_of_parts = 6;
 // Scan triangles longer than this part of the mean edge are subdivided, so that each face gets samples.
 constexpr double longest_scan_edge = 0.7;
 // Residuals beyond this part of the mean edge are suspected of a wrong location.
@@ -118,7 +120,10 @@ class Fitter {
         neighbours_(face_neighbours(mesh, stars_)),
         colours_(colour_vertices(mesh, stars_)),
         mean_edge_(std::sqrt(4 / std::numbers::sqrt3 * scan.area / static_cast<double>(mesh.triangles.size()))),
-        forward_(sample_surface(scan, longest_scan_edge * mean_edge_, most_samples_per_face * mesh.triangles.size())),
+        forward_(
+            sample_surface(scan, longest_scan_edge * mean_edge_,
+                           (scan.patch_of_vertex.empty() ? most_samples_per_face : most_samples_per_face_of_parts) *
+                               mesh.triangles.size())),
         fits_(mesh.triangles.size()) {
     set_fidelity(options.fidelity_of_diagonal);
     start_locations();

@@ -140,12 +140,14 @@ void table(const std::filesystem::path& file) {
   std::printf("\n");
 }
 
-SurfaceMesh simplified(const std::filesystem::path& file, std::size_t faces, Sizing sizing) {
+SurfaceMesh simplified(SurfaceMesh scan, const TargetSize& size, Sizing sizing, const FeatureOptions& features = {}) {
   PipelineOptions options;
-  options.simplify->size = FaceCount{faces};
+  options.simplify->size = size;
   options.simplify->sizing = sizing;
+  options.simplify->features = features;
+  options.simplify->for_tetrahedra = true;
   options.tetrahedralize.reset();
-  return run_pipeline(read_surface(file), options).surface;
+  return run_pipeline(std::move(scan), options).surface;
 }
 
 // The surfaces that the volume stage is judged on.
@@ -155,10 +157,15 @@ void standard(const std::filesystem::path& horse, const std::filesystem::path& f
                                       {"scan2fea, effort low", with_effort(Effort::low, {})},
                                       {"scan2fea, effort high", with_effort(Effort::high, {})},
                                       {"scan2fea `--interior-size 1.3x`", ours(1.3)}};
-  rows("Horse, `--sizing uniform`", simplified(horse, 12604, Sizing::uniform), settings);
-  rows("Horse", simplified(horse, 12604, Sizing::curvature), settings);
-  rows("fandisk", simplified(fandisk, 21000, Sizing::curvature), settings);
-  rows("plate 100 x 100 x 2, edges of 2.8", analytic::plate({100, 100, 2}, 2.8),
+  const FeatureOptions organic{.angle_deg = {}};
+  rows("Horse, `--sizing uniform`", simplified(read_surface(horse), FaceCount{12604}, Sizing::uniform, organic),
+       settings);
+  rows("Horse", simplified(read_surface(horse), FaceCount{12604}, Sizing::curvature, organic), settings);
+  rows("fandisk", simplified(read_surface(fandisk), FaceCount{21000}, Sizing::curvature), settings);
+  rows("plate 100 x 100 x 2, `--edge-length 2.8`",
+       simplified(analytic::box({100, 100, 2}, 2), MeanEdgeLength{2.8}, Sizing::curvature),
+       {settings.begin(), settings.end() - 1});
+  rows("plate 100 x 100 x 2, regular edges of 2.8", analytic::plate({100, 100, 2}, 2.8),
        {settings.begin(), settings.end() - 1});  // the lattice's size has no part in it
 }
 
