@@ -4,6 +4,27 @@
 
 namespace scan2fea {
 
+Vec3 direction_at(const FeatureLine& line, double place) {
+  const auto i = std::min(static_cast<std::size_t>(place), line.points.size() - 2);
+  return (line.points[i + 1] - line.points[i]).normalized();
+}
+
+double advanced(const FeatureLine& line, double place, double step) {
+  const double last = static_cast<double>(line.points.size() - 1);
+  while (true) {
+    if (line.closed && step < 0 && place <= 0) place = last;
+    if (line.closed && step > 0 && place >= last) place = 0;
+    if ((step < 0 && place <= 0) || (step > 0 && place >= last) || step == 0) return place;
+    const double whole = step > 0 ? std::floor(place) : std::ceil(place) - 1;
+    const auto i = static_cast<std::size_t>(whole);
+    const double segment = (line.points[i + 1] - line.points[i]).norm();
+    const double to_end = (step > 0 ? whole + 1 - place : place - whole) * segment;
+    if (std::abs(step) < to_end) return place + step / segment;
+    place = step > 0 ? whole + 1 : whole;
+    step += step > 0 ? -to_end : to_end;
+  }
+}
+
 double chord_deviation(const FeatureLine& line, double from, double to) {
   const Vec3 a = line.point_at(from), chord = line.point_at(to) - a;
   const double squared_length = chord.squaredNorm();

@@ -42,6 +42,12 @@ struct FeatureNet {
   bool empty() const { return lines.empty(); }
 };
 
+// Unit, along the segment that the place is on.
+Vec3 direction_at(const FeatureLine& line, double place);
+
+// The place that is `step` (a length, either way) along the line from another. Ends at the ends of an open line.
+double advanced(const FeatureLine& line, double place, double step);
+
 // The largest distance of the line's points between two places to the chord between them; from > to: over the end of a
 // closed line.
 double chord_deviation(const FeatureLine& line, double from, double to);
