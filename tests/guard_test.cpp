@@ -130,7 +130,7 @@ TEST(Defects, NoFaceIsInvertedBesideACreaseThatEndsInsideItsPatch) {
     v = {(v[0] - 10) * std::cos(half), v[1], -std::abs(v[0] - 10) * std::sin(half)};
   }
   const SurfaceMesh measured = analytic::noisy(fold, 0.02, 1);
-  const FeatureScan features(measured, find_features(fold).edges, 0.01);
+  const FeatureScan features(measured, find_features(fold).edges, {.least = 0.01});
   ASSERT_FALSE(features.sharp.empty());
   const ReferenceSurface scan(features);
   std::set<std::uint32_t> on_crease;

@@ -200,7 +200,7 @@ TEST_F(NoisySphere, RefusesOptionsOutOfRange) {
 
 TEST(ShapeFit, VerticesSlideAlongLinesButChordsStayNear) {
   const SurfaceMesh scan = analytic::cylinder(1, 2, 120, 60);
-  const FeatureScan features(scan, find_features(scan).edges, 0.001);
+  const FeatureScan features(scan, find_features(scan).edges, {.least = 0.001});
   LatticeOptions options;
   options.sizing.triangles = 3000;
   LatticeResult lattice = remesh_by_lattice(features, options);

@@ -258,9 +258,10 @@ AnchoredScan anchor_scan(const FeatureScan& scan, const SizingOptions& options, 
   refine();
   const double mean_edge = std::sqrt(surface_area(scan.scan) / (equilateral_area * wanted));
   const double diagonal = bounding_box(scan.scan.vertices).diagonal();
-  const double tolerance =
-      std::max(scan.curve_tolerance,
-               mean_edge * std::min(largest_tolerance_of_edge, tolerance_growth * std::pow(mean_edge / diagonal, 3)));
+  const double tolerance = std::min(
+      scan.tolerance.largest,
+      std::max(scan.tolerance.least,
+               mean_edge * std::min(largest_tolerance_of_edge, tolerance_growth * std::pow(mean_edge / diagonal, 3))));
   FeatureCurves curves;
   SampledPlaces places;
   const auto sample = [&] {

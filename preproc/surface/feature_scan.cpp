@@ -4,8 +4,9 @@
 
 namespace scan2fea {
 
-FeatureScan::FeatureScan(const SurfaceMesh& mesh, std::vector<FeatureEdge> sharp_edges, double tolerance)
-    : scan(mesh), sharp(std::move(sharp_edges)), border(boundary_edges(mesh)), curve_tolerance(tolerance) {
+FeatureScan::FeatureScan(const SurfaceMesh& mesh, std::vector<FeatureEdge> sharp_edges,
+                         const CurveTolerance& curve_tolerance)
+    : scan(mesh), sharp(std::move(sharp_edges)), border(boundary_edges(mesh)), tolerance(curve_tolerance) {
   std::sort(sharp.begin(), sharp.end());
   if (empty()) return;
   cut = cut_along(mesh, sharp);

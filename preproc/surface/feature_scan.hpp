@@ -6,13 +6,20 @@
 #include "preproc/surface/cut_surface.hpp"
 #include "preproc/surface/feature_edge.hpp"
 
+#include <limits>
 #include <vector>
 
 namespace scan2fea {
 
+// How far chords of the result may be from the curves, model units: at least, and at most on coarse meshes.
+struct CurveTolerance {
+  double least = 0;
+  double largest = std::numeric_limits<double>::infinity();
+};
+
 struct FeatureScan {
   // `sharp`: edges of the scan, see find_features. Keeps a reference to the scan, which must outlive it. Nearly linear.
-  FeatureScan(const SurfaceMesh& scan, std::vector<FeatureEdge> sharp, double curve_tolerance);
+  FeatureScan(const SurfaceMesh& scan, std::vector<FeatureEdge> sharp, const CurveTolerance& tolerance);
 
   // Whether there is anything to keep; without, the scan itself serves as well.
   bool empty() const { return sharp.empty() && border.empty(); }
@@ -20,9 +27,9 @@ struct FeatureScan {
   const SurfaceMesh& scan;
   std::vector<FeatureEdge> sharp;   // sorted
   std::vector<FeatureEdge> border;  // sorted
-  double curve_tolerance = 0;       // how far chords of the result may be from the curves, model units
-  CutSurface cut;                   // along the sharp edges; without features, nothing
-  Components patches;               // of cut.mesh
+  CurveTolerance tolerance;
+  CutSurface cut;      // along the sharp edges; without features, nothing
+  Components patches;  // of cut.mesh
 };
 
 }  // namespace scan2fea

@@ -34,6 +34,9 @@ constexpr double noise_on_curves = 1.5;
 // Where a deviation must hold, shape gives way first.
 constexpr double least_angle_within_deg = 28;
 
+// Of the largest deviation, where there is one.
+constexpr double curves_within_deviation = 0.6;
+
 // Of the edge lengths' renewal, over the local error (see error_factors).
 constexpr double error_renewal = 0.3;
 
@@ -69,7 +72,8 @@ double share_beyond(const OneSidedDeviation& side, double distance) {
 // the rest.
 Candidate make_surface_within(PreparedScan& scan, const LargestDeviation& wanted, const SimplifyOptions& options,
                               SimplifyResult& result, const Progress& progress) {
-  constexpr int most_trials = 5;
+  // With features the edge lengths must do it all: local refinement does not know of them.
+  const int most_trials = scan.has_features() ? 16 : 5;
   constexpr double margin = 0.8;          // of the bound, aimed at
   constexpr double most_shrinking = 0.5;  // of an edge from trial to trial
   constexpr double most_growing = 2.8;    // after the first, whose lengths are a guess; later ones only shrink
@@ -162,8 +166,10 @@ SimplifyResult simplify(const SurfaceMesh& mesh, SurfaceMesh& surface, const Sim
   result.features = lines_of(mesh, features.edges);
   const double edge = typical_edge(options.size, mesh);
   if (!options.given_features) features.edges = select_features(mesh, std::move(features.edges), edge);
-  const double tolerance =
-      std::max(curve_tolerance * bounding_box(mesh.vertices).diagonal(), noise_on_curves * features.noise);
+  CurveTolerance tolerance{
+      .least = std::max(curve_tolerance * bounding_box(mesh.vertices).diagonal(), noise_on_curves * features.noise)};
+  if (const auto* bound = std::get_if<LargestDeviation>(&options.size))
+    tolerance.largest = curves_within_deviation * bound->distance;
   // Faces of CAD are far larger than the result's; searches for what is near want them alike.
   SurfaceMesh parted;
   if (!features.edges.empty()) {

@@ -19,7 +19,7 @@ namespace scan2fea {
 class PreparedScan {
  public:
   // `sharp`: its creases.
-  PreparedScan(const SurfaceMesh& surface, std::vector<FeatureEdge> sharp, double tolerance_of_curves)
+  PreparedScan(const SurfaceMesh& surface, std::vector<FeatureEdge> sharp, const CurveTolerance& tolerance_of_curves)
       : mesh(surface), features_(std::in_place, surface, std::move(sharp), tolerance_of_curves) {}
 
   const ReferenceSurface& reference() {
@@ -39,7 +39,7 @@ class PreparedScan {
   // From here on there are only these.
   void keep_creases(std::vector<FeatureEdge> sharp) {
     reference_.reset();
-    features_.emplace(mesh, std::move(sharp), features_->curve_tolerance);
+    features_.emplace(mesh, std::move(sharp), CurveTolerance(features_->tolerance));
   }
 
   // What the reference's vertices have, by vertex of the scan: of the copies at a crease, the one that `wins`.
