@@ -160,6 +160,23 @@ TEST(Simplify, DeviationOutOfReachIsAnErrorOnlyWhereRequired) {
   EXPECT_THROW(simplify(mesh, options), NotMeshable);
 }
 
+TEST(Simplify, NoDeviationHasNoSize) {
+  SurfaceMesh part = analytic::box({1, 1, 1}, 1);
+  SimplifyOptions options;
+  options.size = LargestDeviation{.distance = 0};
+  EXPECT_THROW(simplify(part, options), WrongUsage);
+}
+
+TEST(Simplify, ATinyDeviationOfAPartIsMetByItsOwnFacets) {
+  // Faces as small as the deviation asks for at first would fill any memory.
+  SurfaceMesh part = analytic::box({1, 1, 1}, 0.25);
+  const SurfaceMesh scan = part;
+  SimplifyOptions options;
+  options.size = LargestDeviation{.distance = 1e-6};
+  simplify(part, options);
+  EXPECT_LE(bound_deviation(part, scan, {.limit = 1e-6}).upper(), 1e-6);
+}
+
 TEST(Simplify, KeepsTheCreasesOfAPartOfFewFacets) {
   // A disc of 24 facets, each many times as large as the triangles.
   SurfaceMesh mesh = analytic::cylinder(1, 0.5, 24, 1);

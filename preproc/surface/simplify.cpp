@@ -67,11 +67,16 @@ double share_beyond(const OneSidedDeviation& side, double distance) {
   return static_cast<double>(beyond) / static_cast<double>(side.upper.size());
 }
 
+// A deviation far below the scan's own facets asks for more; nothing is known there.
+double most_triangles_of(const SurfaceMesh& scan) {
+  return 32 * static_cast<double>(scan.triangles.size());
+}
+
 // The deviation of linear triangles goes with the edge length squared, place by place: a few surfaces are made, and the
 // edge lengths renewed from how far each came from the scan there (bounds, not samples), until local refinement can do
 // the rest.
-Candidate make_surface_within(PreparedScan& scan, const LargestDeviation& wanted, const SimplifyOptions& options,
-                              SimplifyResult& result, const Progress& progress) {
+Candidate make_surface_within(PreparedScan& scan, const LargestDeviation& wanted, double most_triangles,
+                              const SimplifyOptions& options, SimplifyResult& result, const Progress& progress) {
   // With features the edge lengths must do it all: local refinement does not know of them.
   const int most_trials = scan.has_features() ? 16 : 5;
   constexpr double margin = 0.8;          // of the bound, aimed at
@@ -80,8 +85,6 @@ Candidate make_surface_within(PreparedScan& scan, const LargestDeviation& wanted
   constexpr double shortest_edge = 0.5;   // over the deviation: shorter ones help nothing
   constexpr double few_beyond = 0.03;     // of the faces, for local refinement: more are cheaper mended all at once
   constexpr double most_beyond = 0.1;     // where there is no other way left
-  // A deviation far below the scan's own facets asks for more; nothing is known there.
-  const double most_triangles = 32 * static_cast<double>(scan.mesh.triangles.size());
   std::vector<double> length(scan.mesh.vertices.size(), first_edge * wanted.distance);
   Candidate best;
   SimplifyResult best_result;
@@ -148,7 +151,11 @@ double wanted_faces(const TargetSize& size, const SurfaceMesh& scan) {
 
 // Of the result, about.
 double typical_edge(const TargetSize& size, const SurfaceMesh& scan) {
-  if (const auto* bound = std::get_if<LargestDeviation>(&size)) return first_edge * bound->distance;
+  if (const auto* bound = std::get_if<LargestDeviation>(&size)) {
+    require_positive(bound->distance, "the deviation");
+    const double shortest = std::sqrt(surface_area(scan) / (equilateral_area * most_triangles_of(scan)));
+    return std::max(first_edge * bound->distance, shortest);
+  }
   return std::sqrt(surface_area(scan) / (equilateral_area * std::max(wanted_faces(size, scan), fewest_faces)));
 }
 
@@ -181,8 +188,7 @@ SimplifyResult simplify(const SurfaceMesh& mesh, SurfaceMesh& surface, const Sim
   PreparedScan scan(whole, std::move(features.edges), tolerance);
   result.faces_before = mesh.triangles.size();
   if (const auto* bound = std::get_if<LargestDeviation>(&options.size)) {
-    require_positive(bound->distance, "the deviation");
-    surface = make_surface_within(scan, *bound, options, result, progress).mesh;
+    surface = make_surface_within(scan, *bound, most_triangles_of(mesh), options, result, progress).mesh;
   } else {
     const double faces = wanted_faces(options.size, mesh);
     require_positive(faces, "the number of triangles");
