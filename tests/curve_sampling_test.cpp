@@ -20,7 +20,7 @@ struct Sampled {
 
 Sampled sample(const SurfaceMesh& mesh, const std::vector<double>& edge_length, double tolerance) {
   Sampled result;
-  result.features = trace_feature_curves(mesh, find_features(mesh).edges, edge_length);
+  result.features = trace_feature_curves(mesh.vertices, find_features(mesh).edges, boundary_edges(mesh), edge_length);
   result.samples = sample_curves(mesh, result.features, edge_length, {.tolerance = tolerance});
   return result;
 }

@@ -1,5 +1,6 @@
 #include "preproc/surface/feature_curves.hpp"
 
+#include "preproc/surface/cut_surface.hpp"
 #include "tests/analytic_meshes.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +18,8 @@ std::vector<double> uniform(const SurfaceMesh& mesh, double edge_length) {
 }
 
 FeatureCurves trace(const SurfaceMesh& mesh, double edge_length) {
-  return trace_feature_curves(mesh, find_features(mesh).edges, uniform(mesh, edge_length));
+  return trace_feature_curves(mesh.vertices, find_features(mesh).edges, boundary_edges(mesh),
+                              uniform(mesh, edge_length));
 }
 
 // How often each edge is part of a curve.
@@ -49,7 +51,8 @@ TEST(FeatureCurves, ABoxHasTwelveBetweenEightCorners) {
 TEST(FeatureCurves, HoldEachFeatureEdgeOnce) {
   const SurfaceMesh slab = analytic::slab_with_holes(2, 0.25);
   const std::vector<FeatureEdge> sharp = find_features(slab).edges;
-  const std::map<FeatureEdge, int> traced = edges_of(trace_feature_curves(slab, sharp, uniform(slab, 0.3)));
+  const std::map<FeatureEdge, int> traced =
+      edges_of(trace_feature_curves(slab.vertices, sharp, boundary_edges(slab), uniform(slab, 0.3)));
   EXPECT_EQ(traced.size(), sharp.size());
   for (const FeatureEdge& e : sharp) EXPECT_EQ(traced.at(e), 1);
 }
@@ -103,7 +106,8 @@ TEST(FeatureCurves, ACreaseMayEndInsideTheSurface) {
   const SurfaceMesh sheet = analytic::sheet(4, 3, 0.5);
   const std::uint32_t middle = 3 * 9 + 4;  // row 3, column 4
   const std::vector<FeatureEdge> dangling{{middle - 2, middle - 1}, {middle - 1, middle}};
-  const FeatureCurves features = trace_feature_curves(sheet, dangling, uniform(sheet, 0.5));
+  const FeatureCurves features =
+      trace_feature_curves(sheet.vertices, dangling, boundary_edges(sheet), uniform(sheet, 0.5));
   EXPECT_EQ(features.corners.size(), 6U);
   const auto crease = std::find_if(features.curves.begin(), features.curves.end(), [](auto& c) { return !c.border; });
   ASSERT_NE(crease, features.curves.end());
@@ -126,7 +130,7 @@ TEST(FeatureCurves, ALoopWithOneCornerBeginsAndEndsThere) {
     }
   disc.vertices.emplace_back(0, 0, 0);
   for (std::uint32_t i = 0; i < n; ++i) disc.triangles.push_back({n, i, (i + 1) % n});
-  const FeatureCurves features = trace_feature_curves(disc, {}, uniform(disc, 0.2));
+  const FeatureCurves features = trace_feature_curves(disc.vertices, {}, boundary_edges(disc), uniform(disc, 0.2));
   EXPECT_EQ(features.corners, std::vector<std::uint32_t>{0});
   ASSERT_EQ(features.curves.size(), 1U);
   EXPECT_FALSE(features.curves[0].closed);
@@ -145,7 +149,7 @@ TEST(FeatureCurves, AJaggedBorderHasNoCornersWhereItIsStraight) {
       const std::size_t from_valley = std::min(i % period, period - i % period);
       sheet.vertices[i][1] = 0.058 * static_cast<double>(2 * from_valley) / static_cast<double>(period);
     }
-    const FeatureCurves features = trace_feature_curves(sheet, {}, uniform(sheet, 0.6));
+    const FeatureCurves features = trace_feature_curves(sheet.vertices, {}, boundary_edges(sheet), uniform(sheet, 0.6));
     EXPECT_EQ(features.corners.size(), 4U) << period;
   }
 }
@@ -154,7 +158,7 @@ TEST(FeatureCurves, CornersStandOutOfFinePolylines) {
   // A turn of 45 degrees amid edges a tenth of the wanted length.
   SurfaceMesh sheet = analytic::sheet(8, 3, 0.05);
   for (Vec3& v : sheet.vertices) v[1] += std::max(0.0, v[0] - 4);
-  EXPECT_EQ(trace_feature_curves(sheet, {}, uniform(sheet, 0.5)).corners.size(), 6U);
+  EXPECT_EQ(trace_feature_curves(sheet.vertices, {}, boundary_edges(sheet), uniform(sheet, 0.5)).corners.size(), 6U);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // scan2fea: from a scanned surface to a finite-element mesh.
 #include "preproc/command/configuration.hpp"
+#include "preproc/command/huge_pages.hpp"
 #include "preproc/command/progress_display.hpp"
 #include "preproc/command/sub_commands.hpp"
 #include "preproc/mesh/error.hpp"
@@ -55,6 +56,7 @@ int run_command(int argc, char** argv) {
 }  // namespace scan2fea::command
 
 int main(int argc, char** argv) {
+  scan2fea::command::restart_with_huge_pages(argv);
   try {
     return scan2fea::command::run_command(argc, argv);
   } catch (const scan2fea::Error& e) {

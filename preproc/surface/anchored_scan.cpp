@@ -31,12 +31,14 @@ struct Welded {
   SurfaceMesh mesh;
   std::vector<double> edge_length;
   std::vector<FeatureEdge> features;  // sharp and border edges
+  bool closed;
 
-  std::vector<FeatureEdge> sharp() const {
+  std::vector<FeatureEdge> border() const { return closed ? std::vector<FeatureEdge>{} : boundary_edges(mesh); }
+  std::vector<FeatureEdge> sharp(const std::vector<FeatureEdge>& sorted_border) const {
     std::vector<FeatureEdge> sorted = features, inner;
     std::sort(sorted.begin(), sorted.end());
-    const std::vector<FeatureEdge> border = boundary_edges(mesh);
-    std::set_difference(sorted.begin(), sorted.end(), border.begin(), border.end(), std::back_inserter(inner));
+    std::set_difference(sorted.begin(), sorted.end(), sorted_border.begin(), sorted_border.end(),
+                        std::back_inserter(inner));
     return inner;
   }
 };
@@ -249,7 +251,8 @@ void permute(std::vector<Value>& values, const std::vector<std::uint32_t>& place
 AnchoredScan anchor_scan(const FeatureScan& scan, const SizingOptions& options, double longest_scan_edge) {
   Welded welded{.mesh = scan.scan,
                 .edge_length = compute_sizing_field(scan.scan, options, &scan.cut).edge_length,
-                .features = scan.sharp};
+                .features = scan.sharp,
+                .closed = scan.border.empty()};
   welded.features.insert(welded.features.end(), scan.border.begin(), scan.border.end());
   const double wanted = predicted_triangles(welded.mesh, {welded.edge_length});
   const auto refine = [&] {
@@ -265,7 +268,8 @@ AnchoredScan anchor_scan(const FeatureScan& scan, const SizingOptions& options, 
   FeatureCurves curves;
   SampledPlaces places;
   const auto sample = [&] {
-    curves = trace_feature_curves(welded.mesh, welded.sharp(), welded.edge_length);
+    const std::vector<FeatureEdge> border = welded.border();
+    curves = trace_feature_curves(welded.mesh.vertices, welded.sharp(border), border, welded.edge_length);
     places = sample_curves(welded.mesh, curves, welded.edge_length, {.tolerance = tolerance});
   };
   for (int round = 0; round < rounds_of_spacing; ++round) {
@@ -283,7 +287,7 @@ AnchoredScan anchor_scan(const FeatureScan& scan, const SizingOptions& options, 
   result.anchors.net.tolerance = tolerance;
   std::vector<std::uint32_t> sample_of_vertex;
   number_samples(welded, curves, places, result.anchors, sample_of_vertex);
-  CutSurface cut = cut_along(welded.mesh, welded.sharp());
+  CutSurface cut = cut_along(welded.mesh, welded.sharp(welded.border()));
   result.anchors.patch_of_node = patches_of_nodes(scan, cut.mesh);
   result.refined.scan_vertex_at = nodes_of_scan_vertices(scan, cut, result.anchors.patch_of_node);
   result.anchors.tangents = tangents_along(cut, welded.features);

@@ -1,7 +1,5 @@
 #include "preproc/surface/feature_curves.hpp"
 
-#include "preproc/surface/adjacency.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -21,16 +19,11 @@ struct Edge {
   bool border;
 };
 
-// Sharp edges, then border edges in the direction of their face.
-std::vector<Edge> collect_edges(const SurfaceMesh& scan, const std::vector<FeatureEdge>& sharp) {
+std::vector<Edge> collect_edges(const std::vector<FeatureEdge>& sharp, const std::vector<FeatureEdge>& border) {
   std::vector<Edge> edges;
-  for (const FeatureEdge& e : sharp) edges.push_back({e[0], e[1], false});
-  const std::vector<Triangle> neighbours = face_neighbours(scan, VertexStars(scan));
-  for (std::size_t f = 0; f < neighbours.size(); ++f) {
-    const Triangle& t = scan.triangles[f];
-    for (std::size_t k = 0; k < 3; ++k)
-      if (neighbours[f][k] == no_face) edges.push_back({t[(k + 1) % 3], t[(k + 2) % 3], true});
-  }
+  edges.reserve(sharp.size() + border.size());
+  for (const auto& [a, b] : sharp) edges.push_back({a, b, false});
+  for (const auto& [a, b] : border) edges.push_back({a, b, true});
   return edges;
 }
 
@@ -114,8 +107,8 @@ double turn_deg(const Vec3& before, const Vec3& after) {
 // One traced curve, by arc length.
 class TurnsOfCurve {
  public:
-  TurnsOfCurve(const SurfaceMesh& scan, const FeatureCurve& curve, const std::vector<double>& edge_length)
-      : scan_(scan), curve_(curve), edge_length_(edge_length), arc_{0} {
+  TurnsOfCurve(const std::vector<Vec3>& points, const FeatureCurve& curve, const std::vector<double>& edge_length)
+      : points_(points), curve_(curve), edge_length_(edge_length), arc_{0} {
     for (std::size_t i = 0; i + 1 < curve.vertices.size(); ++i)
       arc_.push_back(arc_.back() + (at(i + 1) - at(i)).norm());
     const std::size_t n = curve.vertices.size();
@@ -159,7 +152,7 @@ class TurnsOfCurve {
   }
 
  private:
-  const Vec3& at(std::size_t i) const { return scan_.vertices[curve_.vertices[i]]; }
+  const Vec3& at(std::size_t i) const { return points_[curve_.vertices[i]]; }
 
   double arc_distance(std::size_t i, std::size_t j) const {
     const double d = std::abs(arc_[i] - arc_[j]);
@@ -205,7 +198,7 @@ class TurnsOfCurve {
     return sum;
   }
 
-  const SurfaceMesh& scan_;
+  const std::vector<Vec3>& points_;
   const FeatureCurve& curve_;
   const std::vector<double>& edge_length_;
   std::vector<double> arc_;    // at each vertex, from the first
@@ -215,18 +208,19 @@ class TurnsOfCurve {
 
 }  // namespace
 
-FeatureCurves trace_feature_curves(const SurfaceMesh& scan, const std::vector<FeatureEdge>& sharp,
-                                   const std::vector<double>& edge_length, const CornerOptions& options) {
-  const std::vector<Edge> edges = collect_edges(scan, sharp);
-  const EdgeStars stars(scan.vertices.size(), edges);
-  std::vector<char> is_corner(scan.vertices.size(), 0);
+FeatureCurves trace_feature_curves(const std::vector<Vec3>& points, const std::vector<FeatureEdge>& sharp,
+                                   const std::vector<FeatureEdge>& border, const std::vector<double>& edge_length,
+                                   const CornerOptions& options) {
+  const std::vector<Edge> edges = collect_edges(sharp, border);
+  const EdgeStars stars(points.size(), edges);
+  std::vector<char> is_corner(points.size(), 0);
   for (std::uint32_t v = 0; v < is_corner.size(); ++v) {
     const auto at = stars.at(v);
     // Where a crease goes on as a border, the curve changes its kind.
     is_corner[v] = !at.empty() && (at.size() != 2 || edges[at[0]].border != edges[at[1]].border);
   }
   for (const FeatureCurve& curve : Tracer(edges, stars, is_corner).trace())
-    for (const std::uint32_t v : TurnsOfCurve(scan, curve, edge_length).corners(options)) is_corner[v] = 1;
+    for (const std::uint32_t v : TurnsOfCurve(points, curve, edge_length).corners(options)) is_corner[v] = 1;
 
   FeatureCurves result{.curves = Tracer(edges, stars, is_corner).trace(), .corners = {}};
   for (std::uint32_t v = 0; v < is_corner.size(); ++v)

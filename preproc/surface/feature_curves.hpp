@@ -33,10 +33,11 @@ struct CornerOptions {
   double jagged_reach = 0.6;
 };
 
-// `sharp`: edges of the scan, see find_features; `edge_length`: wanted, per vertex of the scan, model units. Corners
-// are the vertices at which other than two feature and border edges end, and those where a curve turns sharply.
-// Precondition: the scan is manifold. Borders are oriented as their faces are. Linear but for sorts.
-FeatureCurves trace_feature_curves(const SurfaceMesh& scan, const std::vector<FeatureEdge>& sharp,
-                                   const std::vector<double>& edge_length, const CornerOptions& options = {});
+// `points`: the scan's vertices; `sharp` and `border`: its edges, see find_features and boundary_edges, none in both;
+// `edge_length`: wanted, per vertex, model units. Corners are the vertices at which other than two of these edges end,
+// or one of either kind, and those where a curve turns sharply. Linear but for sorts.
+FeatureCurves trace_feature_curves(const std::vector<Vec3>& points, const std::vector<FeatureEdge>& sharp,
+                                   const std::vector<FeatureEdge>& border, const std::vector<double>& edge_length,
+                                   const CornerOptions& options = {});
 
 }  // namespace scan2fea
