@@ -24,6 +24,8 @@ using Range = tbb::blocked_range<std::size_t>;
 
 // A step of more than this part of the smallest edge or height around a vertex could turn a triangle over.
 constexpr double longest_step = 0.3;
+// Of a Newton step, as in successive over-relaxation: six rounds then do more than eight without.
+constexpr double over_relaxation = 1.5;
 // More samples a face than this do not improve the fit; on a scan far finer than the mesh they would take its time and
 // memory.
 constexpr std::size_t most_samples_per_face = 12;
@@ -352,7 +354,7 @@ class Fitter {
     if (!add_star(v, gradient, hessian, least_squared_length)) return 0;
     // The Hessian is positive semi-definite; where nothing holds a vertex along some direction it stays put there.
     hessian.diagonal().array() += 1e-9 * hessian.trace();
-    Vec3 step = -(hessian.inverse() * gradient);
+    Vec3 step = -over_relaxation * (hessian.inverse() * gradient);
     const double limit = longest_step * std::sqrt(least_squared_length);
     const double length = step.norm();
     if (!std::isfinite(length)) return 0;

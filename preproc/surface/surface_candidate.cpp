@@ -107,7 +107,7 @@ Candidate by_lattice(PreparedScan& scan, const SizingOptions& sizing, const FitP
     fit.fidelity_of_diagonal = fidelity_of_parts;
     fit.lift_tail_of_diagonal = *fit.lift_tail_of_diagonal * fidelity_of_parts / plan.fidelity_of_diagonal;
     fit.rounds_of_dialling = plan.rounds;
-    fit.rounds = first_rounds + plan.rounds * 3 / 4;  // planes and cylinders are met soon
+    fit.rounds = first_rounds + plan.rounds / 2;  // planes and cylinders are met soon
   }
   fit.nearest_vertex_of_scan_vertex = std::move(lattice.vertex_of_scan_vertex);
   candidate.fit = optimise_shape_and_fit(candidate.mesh, candidate.net, scan.reference(), fit, progress);
