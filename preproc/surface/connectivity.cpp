@@ -42,10 +42,13 @@ class Cleaner {
       : mesh_(mesh), edge_length_(edge_length), merged_into_(mesh.vertices.size()), welded_(welded) {
     valence_.resize(mesh.vertices.size());
     ideal_valence_.resize(mesh.vertices.size(), 6);
+    sixths_.resize(mesh.vertices.size(), 0);
     for (Index v = 0; v < valence_.size(); ++v) {
       valence_[v] = static_cast<int>(mesh_.valence(v));
       merged_into_[v] = v;
-      if (mesh_.is_alive(v) && mesh_.is_border_vertex(v)) ideal_valence_[v] = ideal_border_valence(v);
+      if (!mesh_.is_alive(v) || !mesh_.is_border_vertex(v)) continue;
+      sixths_[v] = angle_at(v) * 3 / std::numbers::pi;
+      ideal_valence_[v] = 1 + std::max(1, static_cast<int>(std::lround(sixths_[v])));
     }
     for (Index h = 0; h < 3 * mesh_.face_slots(); ++h) {
       const Index a = mesh_.origin(h), b = mesh_.target(h);
@@ -139,23 +142,33 @@ class Cleaner {
     return mesh_.is_face_alive(HalfedgeMesh::face(h)) && !mesh_.is_border(h) && h < mesh_.opposite(h);
   }
 
-  int ideal_border_valence(Index v) const {
+  // Of all faces around it.
+  double angle_at(Index v) const {
     double angle = 0;
     mesh_.for_each_outgoing(v, [&](Index h) {
       const Vec3 a = mesh_.points[mesh_.target(h)] - mesh_.points[v];
       const Vec3 b = mesh_.points[mesh_.origin(HalfedgeMesh::prev(h))] - mesh_.points[v];
       angle += std::atan2(a.cross(b).norm(), a.dot(b));
     });
-    return 1 + std::max(1, static_cast<int>(std::lround(angle * 3 / std::numbers::pi)));
+    return angle;
   }
   int irregularity(Index v, int change) const { return std::abs(valence_[v] + change - ideal_valence_[v]); }
+
+  // What flips weigh: how far the angles at v are from 60 degrees, squared and summed; 1 for a valence of 5 or 7. At a
+  // right corner three faces are far worse than two, though 1.5 would be ideal.
+  double misfit(Index v, int change) const {
+    const int valence = valence_[v] + change;
+    if (sixths_[v] == 0) return (valence - 6) * (valence - 6);
+    constexpr double of_valence_5_or_7 = 0.17;  // about 1 / 5 and 1 / 7
+    const double faces = std::max(1, valence - 1), miss = sixths_[v] / faces - 1;
+    return faces * miss * miss / of_valence_5_or_7;
+  }
 
   // Between border vertices of a cut surface; another patch may have the same one.
   bool is_chord(Index a, Index b) const {
     return !welded_.empty() && mesh_.is_border_vertex(a) && mesh_.is_border_vertex(b);
   }
   FeatureEdge chord(Index a, Index b) const { return feature_edge(welded_[a], welded_[b]); }
-  int squared_irregularity(Index v, int change) const { return irregularity(v, change) * irregularity(v, change); }
 
   double relative_length(Index h) const {
     const Index a = mesh_.origin(h), b = mesh_.target(h);
@@ -176,9 +189,9 @@ class Cleaner {
   bool flip_is_better(Index h) const {
     const auto [a, b, c, d] = quad(h);
     if (is_chord(c, d) && chords_.contains(chord(c, d))) return false;
-    int change = 0;
-    for (const Index v : {a, b}) change += squared_irregularity(v, -1) - squared_irregularity(v, 0);
-    for (const Index v : {c, d}) change += squared_irregularity(v, 1) - squared_irregularity(v, 0);
+    double change = 0;
+    for (const Index v : {a, b}) change += misfit(v, -1) - misfit(v, 0);
+    for (const Index v : {c, d}) change += misfit(v, 1) - misfit(v, 0);
     if (change > 0) return false;
     const Vec3 &pa = mesh_.points[a], &pb = mesh_.points[b], &pc = mesh_.points[c], &pd = mesh_.points[d];
     if (change == 0) {
@@ -266,6 +279,7 @@ class Cleaner {
     edge_length_.push_back(0.5 * (edge_length_[a] + edge_length_[b]));
     valence_.push_back(4);
     ideal_valence_.push_back(6);
+    sixths_.push_back(0);
     ++valence_[c];
     ++valence_[d];
     merged_into_.push_back(mesh_.split_edge(h, 0.5 * (mesh_.points[a] + mesh_.points[b])));
@@ -297,6 +311,7 @@ class Cleaner {
   HalfedgeMesh mesh_;
   std::vector<double>& edge_length_;
   std::vector<int> valence_, ideal_valence_;
+  std::vector<double> sixths_;  // of a border vertex, its angle over 60 degrees; else 0
   std::vector<Index> merged_into_;
   std::span<const std::uint32_t> welded_;
   std::set<FeatureEdge> chords_;  // see is_chord
