@@ -1,5 +1,6 @@
 #include "preproc/surface/curve_sampling.hpp"
 
+#include "preproc/surface/cut_surface.hpp"
 #include "tests/analytic_meshes.hpp"
 
 #include <gtest/gtest.h>

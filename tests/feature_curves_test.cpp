@@ -83,16 +83,6 @@ TEST(FeatureCurves, ASheetHasItsBorderBetweenItsCorners) {
   EXPECT_EQ(edges, 2U * (16 + 12));
 }
 
-TEST(FeatureCurves, BordersRunAsTheirFacesDo) {
-  // Counter-clockwise about the sheet, seen from above: the enclosed area is positive.
-  const SurfaceMesh sheet = analytic::sheet(4, 3, 0.25);
-  double twice_area = 0;
-  for (const FeatureCurve& curve : trace(sheet, 0.4).curves)
-    for (std::size_t i = 0; i + 1 < curve.vertices.size(); ++i)
-      twice_area += sheet.vertices[curve.vertices[i]].cross(sheet.vertices[curve.vertices[i + 1]])[2];
-  EXPECT_NEAR(twice_area, 24, 1e-9);
-}
-
 TEST(FeatureCurves, AFoldMeetsTheBorderAtCorners) {
   SurfaceMesh folded = analytic::sheet(4, 3, 0.25);
   for (Vec3& v : folded.vertices) v[2] = -std::abs(v[0] - 2);

@@ -154,14 +154,13 @@ class Cleaner {
   }
   int irregularity(Index v, int change) const { return std::abs(valence_[v] + change - ideal_valence_[v]); }
 
-  // What flips weigh: how far the angles at v are from 60 degrees, squared and summed; 1 for a valence of 5 or 7. At a
-  // right corner three faces are far worse than two, though 1.5 would be ideal.
-  double misfit(Index v, int change) const {
-    const int valence = valence_[v] + change;
-    if (sixths_[v] == 0) return (valence - 6) * (valence - 6);
-    constexpr double of_valence_5_or_7 = 0.17;  // about 1 / 5 and 1 / 7
-    const double faces = std::max(1, valence - 1), miss = sixths_[v] / faces - 1;
-    return faces * miss * miss / of_valence_5_or_7;
+  // What flips weigh. Faces too many for the angle of a corner cannot be mended by moving vertices.
+  int misfit(Index v, int change) const {
+    constexpr double narrowest_face = 0.6;  // over 60 degrees
+    constexpr int crowded = 3;              // as much as the vertices around lose by the flip that helps
+    const int of_valence = irregularity(v, change) * irregularity(v, change);
+    const int faces = valence_[v] + change - 1;
+    return of_valence + (sixths_[v] > 0 && faces > 1 && sixths_[v] < narrowest_face * faces ? crowded : 0);
   }
 
   // Between border vertices of a cut surface; another patch may have the same one.
@@ -189,7 +188,7 @@ class Cleaner {
   bool flip_is_better(Index h) const {
     const auto [a, b, c, d] = quad(h);
     if (is_chord(c, d) && chords_.contains(chord(c, d))) return false;
-    double change = 0;
+    int change = 0;
     for (const Index v : {a, b}) change += misfit(v, -1) - misfit(v, 0);
     for (const Index v : {c, d}) change += misfit(v, 1) - misfit(v, 0);
     if (change > 0) return false;

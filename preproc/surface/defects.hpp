@@ -21,8 +21,8 @@ struct SurfaceDefects {
   bool meshable() const { return crossings.empty() && inverted.empty(); }
 };
 
-// Per face of `mesh`, the vertex of the scan nearest to its centroid on the same side of the body and, with features, on
-// its own patch and side of each line.
+// Per face of `mesh`, the vertex of the scan nearest to its centroid on the same side of the body and, with features,
+// on its own patch and side of each line.
 std::vector<std::uint32_t> scan_vertices_of_faces(const SurfaceMesh& mesh, const ReferenceSurface& scan);
 std::vector<std::uint32_t> scan_vertices_of_faces(const SurfaceMesh& mesh, const FeatureNet& net,
                                                   const ReferenceSurface& scan);

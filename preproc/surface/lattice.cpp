@@ -16,8 +16,10 @@ namespace scan2fea {
 namespace {
 
 constexpr double equilateral_area = 0.43301270189221932;  // sqrt(3)/4, of edge length 1
-// A little more than wanted, since collapses of what is too much disturb the lattice less than splits.
+// A little more than wanted, since collapses of what is too much disturb the lattice less than splits. Beside creases
+// the count is known less well, and splits do more harm: a vertex of four small faces may rise to a spike.
 constexpr double surplus = 1.01;
+constexpr double surplus_with_features = 1.02;
 // Farther off than this, collapses and splits would spoil the lattice: it is laid anew with the lengths corrected.
 constexpr double largest_miscount = 0.03;
 constexpr int attempts = 3;
@@ -107,7 +109,7 @@ LatticeResult lay_lattice(const RefinedScan& refined, const Anchors& anchors, do
 
   LatticeResult result;
   ExtractedLattice extracted;
-  double asked = surplus * wanted;
+  double asked = (anchors.empty() ? surplus : surplus_with_features) * wanted;
   for (int attempt = 0; attempt < attempts; ++attempt) {
     scale_lengths(graph, std::sqrt(lattice_triangles(graph.levels.front()) / asked));
     progress("positions", 0.4);

@@ -182,7 +182,7 @@ class Surroundings {
   void fit(SurfaceMesh& patch) const {
     ShapeFitOptions options;
     options.rounds = 6;
-    options.hold_small_faces = true;
+    options.hold_faces_below = 1;
     options.fidelity_of_diagonal = std::min(0.09, goal_.fidelity / fit_scan_->diagonal);
     options.lift_tail_of_diagonal = tail_of_limit * goal_.limit / fit_scan_->diagonal;
     options.most_lift = most_lift;

@@ -51,6 +51,8 @@ void check(const SurfaceMesh& mesh, const ReferenceSurface& scan, const ShapeFit
   };
   require(options.fidelity_of_diagonal > 0 && options.fidelity_of_diagonal < 0.1, "fidelity out of range",
           options.fidelity_of_diagonal, "0 to 0.1 of the diagonal");
+  require(options.hold_faces_below >= 0 && options.hold_faces_below <= 1, "size of faces to hold out of range",
+          options.hold_faces_below, "0 to 1 of the mean");
   require(options.rounds >= 1, "too few rounds", options.rounds, "at least 1");
   require(options.sweeps >= 1, "too few sweeps", options.sweeps, "at least 1");
   require(!options.lift_tail_of_diagonal || *options.lift_tail_of_diagonal > 0, "tail distance out of range",
@@ -276,8 +278,8 @@ class Fitter {
         FaceFit fit;
         fit.normal = normals_[f];
         const double area = area_vector(mesh_, mesh_.triangles[f]).norm() / 2;
-        const double mean_area = scan_.area / static_cast<double>(fits_.size());
-        const double hold = options_.hold_small_faces && area > 0 ? std::clamp(mean_area / area, 1.0, 100.0) : 1.0;
+        const double held_area = options_.hold_faces_below * scan_.area / static_cast<double>(fits_.size());
+        const double hold = area > 0 ? std::clamp(held_area / area, 1.0, 100.0) : 1.0;
         for (std::uint32_t k = by_face.first[f]; k < by_face.first[f + 1]; ++k) {
           const std::uint32_t s = by_face.order[k];
           const Vec3 to_target = forward_.samples[s].point - point_at(mesh_, locations_[s]);

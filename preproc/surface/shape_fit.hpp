@@ -42,9 +42,10 @@ struct ShapeFitOptions {
   // the largest distance for 0.002 in the edge ratio. Lower tails (0.0007) cost shape, and crossings in tight folds.
   std::optional<double> lift_tail_of_diagonal = 0.0015;
   double most_lift = 50;
-  // Samples weigh by area, so that the mean error is least: where faces are small, shape then outweighs fit. Where set,
-  // faces below the mean size hold to the scan as those of the mean size do, for a largest error that is small.
-  bool hold_small_faces = false;
+  // Samples weigh by area, so that the mean error is least: where faces are small, shape then outweighs fit, so far
+  // that a few may rise to a spike. Faces below this part of the mean size hold to the scan as those of this size do,
+  // for a largest error that is small; 0 to 1.
+  double hold_faces_below = 0.25;
   ShapeEnergy shape;
   // Where most vertices are fixed, only the samples around the free ones are looked at, and measured.
   VertexConstraints constraints;

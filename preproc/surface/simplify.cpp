@@ -28,7 +28,7 @@ constexpr double longest_edge_of_part = 1.5;
 constexpr double first_edge = 12;
 
 // How far the result's edges may be from the curves: of the diagonal, and over the scan's noise.
-constexpr double curve_tolerance = 0.00015;
+constexpr double curve_tolerance = 0.00014;
 constexpr double noise_on_curves = 1.5;
 
 // Where a deviation must hold, shape gives way first.

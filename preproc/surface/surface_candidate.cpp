@@ -100,10 +100,10 @@ Candidate by_lattice(PreparedScan& scan, const SizingOptions& sizing, const FitP
   candidate.net = std::move(lattice.net);
   ShapeFitOptions fit;
   fit.rounds = first_rounds + plan.rounds;
-  fit.hold_small_faces = sizing.sizing == Sizing::uniform && !sizing.factors.empty();
+  if (sizing.sizing == Sizing::uniform && !sizing.factors.empty()) fit.hold_faces_below = 1;
   fit.fidelity_of_diagonal = plan.fidelity_of_diagonal;
   fit.fidelity_of_residual = plan.fidelity_of_residual;
-  if (scan.has_features()) {
+  if (scan.has_creases()) {
     fit.fidelity_of_diagonal = fidelity_of_parts;
     fit.lift_tail_of_diagonal = *fit.lift_tail_of_diagonal * fidelity_of_parts / plan.fidelity_of_diagonal;
     fit.rounds_of_dialling = plan.rounds;
@@ -113,7 +113,7 @@ Candidate by_lattice(PreparedScan& scan, const SizingOptions& sizing, const FitP
   candidate.fit = optimise_shape_and_fit(candidate.mesh, candidate.net, scan.reference(), fit, progress);
   GuardOptions guard;
   // On parts with edges, not much looser than the fit: what is plane stays plane.
-  if (scan.has_features()) {
+  if (scan.has_creases()) {
     guard.fidelity_of_diagonal = candidate.fit.fidelity_of_diagonal;
     guard.loosest_fidelity_of_diagonal = 2 * candidate.fit.fidelity_of_diagonal;
   }
@@ -167,7 +167,7 @@ Candidate by_contraction(PreparedScan& scan, const SizingOptions& sizing, const 
     for (const auto& [a, b] : boundary_edges(fitted.mesh))
       fit.constraints[a] = fit.constraints[b] = VertexConstraint::fixed;
   }
-  fit.hold_small_faces = sizing.sizing == Sizing::uniform && !sizing.factors.empty();
+  if (sizing.sizing == Sizing::uniform && !sizing.factors.empty()) fit.hold_faces_below = 1;
   optimise_shape_and_fit(fitted.mesh, scan.reference(), fit, progress);
   const std::vector<Vec3> targets = fitted.mesh.vertices;
   finish(fitted, scan, {}, progress);
