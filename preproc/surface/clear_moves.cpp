@@ -102,9 +102,9 @@ ClearMoves move_clear(SurfaceMesh& mesh, const std::vector<Vec3>& targets, int s
   return {.held = static_cast<std::size_t>(std::count(arrived.begin(), arrived.end(), false))};
 }
 
-bool preserve_volume_clear(SurfaceMesh& mesh, const SurfaceMesh& like) {
+bool preserve_volume_clear(SurfaceMesh& mesh, const SurfaceMesh& like, VertexConstraints constraints) {
   constexpr int trials = 10;
-  VertexConstraints constraints(mesh.vertices.size(), VertexConstraint::free);
+  constraints.resize(mesh.vertices.size(), VertexConstraint::free);
   for (int trial = 0; trial < trials; ++trial) {
     SurfaceMesh shifted = mesh;
     try {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "preproc/mesh/surface_mesh.hpp"
+#include "preproc/surface/vertex_constraint.hpp"
 
 #include <cstddef>
 #include <vector>
@@ -22,6 +23,6 @@ ClearMoves move_clear(SurfaceMesh& mesh, const std::vector<Vec3>& targets, int s
 // Gives each component of the surface the volume of `like` (see preserve_volume), by moving only vertices that then
 // meet nothing. False, and the mesh as it was, where that fails. Precondition: no self-intersections; it has none
 // afterwards either.
-bool preserve_volume_clear(SurfaceMesh& mesh, const SurfaceMesh& like);
+bool preserve_volume_clear(SurfaceMesh& mesh, const SurfaceMesh& like, VertexConstraints constraints = {});
 
 }  // namespace scan2fea

@@ -1,5 +1,6 @@
 #include "preproc/surface/delaunay_flips.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -49,6 +50,8 @@ std::size_t restore_delaunay(HalfedgeMesh& mesh, Index v, const DelaunayFlipLimi
     const Index h = waiting.back();
     waiting.pop_back();
     if (!should_flip(mesh, h, crease_cosine)) continue;
+    if (std::binary_search(limits.kept.begin(), limits.kept.end(), feature_edge(mesh.origin(h), mesh.target(h))))
+      continue;
     const Index o = mesh.opposite(h);
     mesh.flip(h);
     ++flips;

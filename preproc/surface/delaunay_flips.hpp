@@ -3,7 +3,10 @@
 // sum to more than 180 degrees.
 #pragma once
 
+#include "preproc/surface/feature_edge.hpp"
 #include "preproc/surface/halfedge_mesh.hpp"
+
+#include <span>
 
 namespace scan2fea {
 
@@ -11,6 +14,8 @@ struct DelaunayFlipLimits {
   // Edges with a larger angle between their faces' normals are creases and stay; a flip must not make one either.
   // Degrees, 0 to 90. 40 lies between scan noise and the edges of parts.
   double crease_deg = 40;
+  // Edges that stay whatever their angle, sorted.
+  std::span<const FeatureEdge> kept;
 };
 
 // Starts from the edges opposite to v and goes on where a flip has changed an edge's faces. Returns the number of

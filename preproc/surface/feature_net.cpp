@@ -45,14 +45,40 @@ double chord_deviation(const FeatureLine& line, double from, double to) {
   return largest;
 }
 
+double middle_place(const FeatureLine& line, double from, double to) {
+  const auto length = [&](double begin, double end) {
+    double sum = 0;
+    Vec3 at = line.point_at(begin);
+    const auto go_to = [&](const Vec3& next) {
+      sum += (next - at).norm();
+      at = next;
+    };
+    for (auto i = static_cast<std::size_t>(begin) + 1; static_cast<double>(i) < end; ++i) go_to(line.points[i]);
+    go_to(line.point_at(end));
+    return sum;
+  };
+  const auto last = static_cast<double>(line.points.size() - 1);
+  const double whole = from <= to ? length(from, to) : length(from, last) + length(0, to);
+  return advanced(line, from, whole / 2);
+}
+
+std::vector<LineEdge> line_edges(const FeatureNet& net) {
+  std::vector<LineEdge> edges;
+  for (std::uint32_t l = 0; l < net.lines.size(); ++l) {
+    const FeatureLine& line = net.lines[l];
+    const std::size_t count = line.vertices.size();
+    for (std::size_t i = 0; i + (line.closed ? 0 : 1) < count; ++i) {
+      const VertexOnLine &from = line.vertices[i], &to = line.vertices[(i + 1) % count];
+      edges.push_back({from.vertex, to.vertex, from.place, to.place, l});
+    }
+  }
+  std::sort(edges.begin(), edges.end(), [](const LineEdge& a, const LineEdge& b) { return a.edge() < b.edge(); });
+  return edges;
+}
+
 std::vector<FeatureEdge> edges_of(const FeatureNet& net) {
   std::vector<FeatureEdge> edges;
-  for (const FeatureLine& line : net.lines) {
-    const std::size_t count = line.vertices.size();
-    for (std::size_t i = 0; i + (line.closed ? 0 : 1) < count; ++i)
-      edges.push_back(feature_edge(line.vertices[i].vertex, line.vertices[(i + 1) % count].vertex));
-  }
-  std::sort(edges.begin(), edges.end());
+  for (const LineEdge& e : line_edges(net)) edges.push_back(e.edge());
   return edges;
 }
 

@@ -52,7 +52,22 @@ double advanced(const FeatureLine& line, double place, double step);
 // closed line.
 double chord_deviation(const FeatureLine& line, double from, double to);
 
-// Edges of the surface that stand for the lines, sorted.
+// Half-way along the line from one place to another; from > to: over the end of a closed line.
+double middle_place(const FeatureLine& line, double from, double to);
+
+// An edge of the surface that stands for a piece of a line.
+struct LineEdge {
+  std::uint32_t from, to;  // vertices of the surface, in the line's direction
+  double from_place, to_place;
+  std::uint32_t line;
+
+  FeatureEdge edge() const { return feature_edge(from, to); }
+};
+
+// All of them, sorted by edge().
+std::vector<LineEdge> line_edges(const FeatureNet& net);
+
+// The same without their places.
 std::vector<FeatureEdge> edges_of(const FeatureNet& net);
 
 // Per vertex of a surface of so many, whether it lies on a line.

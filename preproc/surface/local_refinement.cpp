@@ -25,6 +25,9 @@ constexpr int most_rings = 3;
 constexpr std::size_t most_vertices_per_face = 6;
 // Of the limit: what the exact volume's shift may take.
 constexpr double reserve = 0.01;
+// Where nothing helps, shape gives way, so often and by so much each time.
+constexpr int most_yielding = 2;
+constexpr double yielding_deg = 8;
 
 struct Place {
   std::uint32_t face;  // of the mesh
@@ -140,18 +143,20 @@ std::vector<std::vector<std::uint32_t>> scan_faces_near(const SurfaceMesh& scan,
 
 // Those at once that are apart from each other, until each has had its turn or was within another's patch, which then
 // had it for its own. Returns those whose patches are still too far.
-std::vector<Place> mend(SurfaceMesh& mesh, const ReferenceSurface& scan, std::vector<Place> places, int rings,
-                        const PatchGoal& goal, std::size_t most_vertices, LocalRefinementResult& result) {
+std::vector<Place> mend(SurfaceMesh& mesh, FeatureNet& net, const ReferenceSurface& scan, std::vector<Place> places,
+                        int rings, const PatchGoal& goal, const LocalRefinementOptions& options,
+                        LocalRefinementResult& result) {
   std::vector<Place> left;
   std::vector<bool> covered;
   while (!places.empty()) {
     covered.resize(mesh.triangles.size(), false);
     const VertexStars stars(mesh);
+    const std::vector<LineEdge> lines = line_edges(net);
     std::vector<RefinementPatch> batch;
     std::vector<Place> taken, later;
     for (const Place& place : places) {
       if (covered[place.face]) continue;
-      RefinementPatch patch(mesh, stars, place.face, rings, place.deviation);
+      RefinementPatch patch(mesh, stars, place.face, rings, place.deviation, lines);
       const bool is_apart = std::all_of(batch.begin(), batch.end(),
                                         [&](const RefinementPatch& other) { return apart(patch.box(), other.box()); });
       (is_apart ? taken : later).push_back(place);
@@ -160,16 +165,18 @@ std::vector<Place> mend(SurfaceMesh& mesh, const ReferenceSurface& scan, std::ve
       batch.push_back(std::move(patch));
     }
     if (batch.empty()) break;
-    const std::vector<std::vector<std::uint32_t>> scan_faces = scan_faces_near(scan.mesh, batch);
+    // The whole scan: cut along its creases, it has no side beyond them that a face next to one could agree with.
+    const std::vector<std::vector<std::uint32_t>> scan_faces = scan_faces_near(scan.whole, batch);
     PatchGoal part = goal;
-    part.most_vertices = (most_vertices - std::min(most_vertices, result.inserted)) / batch.size();
+    part.most_vertices = (options.most_vertices - std::min(options.most_vertices, result.inserted)) / batch.size();
     std::vector<PatchOutcome> outcomes(batch.size());
-    tbb::parallel_for(std::size_t{0}, batch.size(),
-                      [&](std::size_t i) { outcomes[i] = batch[i].improve(mesh, scan.mesh, scan_faces[i], part); });
+    tbb::parallel_for(std::size_t{0}, batch.size(), [&](std::size_t i) {
+      outcomes[i] = batch[i].improve(mesh, scan.whole, scan_faces[i], net, part);
+    });
     for (std::size_t i = 0; i < batch.size(); ++i) {
       if (!outcomes[i].reached) left.push_back(taken[i]);
       if (!outcomes[i].improved) continue;
-      batch[i].write(mesh);
+      batch[i].write(mesh, net);
       result.inserted += batch[i].inserted();
       ++result.patches;
     }
@@ -178,7 +185,7 @@ std::vector<Place> mend(SurfaceMesh& mesh, const ReferenceSurface& scan, std::ve
   return left;
 }
 
-LocalRefinementResult refine_places(SurfaceMesh& mesh, const ReferenceSurface& scan,
+LocalRefinementResult refine_places(SurfaceMesh& mesh, FeatureNet& net, const ReferenceSurface& scan,
                                     const std::vector<double>& deviation, const LocalRefinementOptions& options) {
   PatchGoal goal;
   goal.limit = goal_limit(options);
@@ -187,7 +194,7 @@ LocalRefinementResult refine_places(SurfaceMesh& mesh, const ReferenceSurface& s
   std::vector<Place> places = places_beyond(deviation, goal.limit);
   LocalRefinementResult result;
   for (int rings = fewest_rings; rings <= most_rings && !places.empty(); ++rings)
-    places = mend(mesh, scan, std::move(places), rings, goal, options.most_vertices, result);
+    places = mend(mesh, net, scan, std::move(places), rings, goal, options, result);
   return result;
 }
 
@@ -205,15 +212,24 @@ LocalRefinementResult refine_worst(SurfaceMesh& mesh, const ReferenceSurface& sc
     std::nth_element(sorted.begin(), next, sorted.end(), std::greater<>());
     used.limit = std::max(used.limit, *next);
   }
-  return refine_places(mesh, scan, deviation, used);
+  FeatureNet none;
+  return refine_places(mesh, none, scan, deviation, used);
 }
 
 BoundedRefinementResult refine_within(SurfaceMesh& mesh, const ReferenceSurface& scan,
                                       const LocalRefinementOptions& options, const Progress& progress) {
+  FeatureNet none;
+  return refine_within(mesh, none, scan, options, progress);
+}
+
+BoundedRefinementResult refine_within(SurfaceMesh& mesh, FeatureNet& net, const ReferenceSurface& scan,
+                                      const LocalRefinementOptions& options, const Progress& progress) {
   check(options);
+  net.patch_of_face.clear();
   const TriangleTree tree(scan.mesh);
   LocalRefinementOptions left = options;
   BoundedRefinementResult result;
+  int yielded = 0;
   for (int round = 0;; ++round) {
     progress("deviation", static_cast<double>(round) / options.rounds);
     const DeviationBound bound = bound_deviation(mesh, scan.mesh, tree, {.limit = goal_limit(options)});
@@ -226,10 +242,13 @@ BoundedRefinementResult refine_within(SurfaceMesh& mesh, const ReferenceSurface&
     std::vector<double> deviation = bound.to_reference.upper;
     attribute(far, mesh, mean_edge(mesh, scan), deviation);
     left.most_vertices = options.most_vertices - std::min(options.most_vertices, result.changes.inserted);
-    const LocalRefinementResult changes = refine_places(mesh, scan, deviation, left);
+    const LocalRefinementResult changes = refine_places(mesh, net, scan, deviation, left);
     result.changes.patches += changes.patches;
     result.changes.inserted += changes.inserted;
-    if (changes.patches == 0) break;
+    if (changes.patches > 0) continue;
+    if (yielded++ == most_yielding) break;
+    left.least_angle_deg = std::max(0.0, left.least_angle_deg - yielding_deg);
+    left.fidelity_of_diagonal /= 2;
   }
   return result;
 }

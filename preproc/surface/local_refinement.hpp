@@ -6,6 +6,7 @@
 #pragma once
 
 #include "preproc/mesh/progress.hpp"
+#include "preproc/surface/feature_net.hpp"
 #include "preproc/surface/reference_surface.hpp"
 
 #include <cstddef>
@@ -24,7 +25,7 @@ struct LocalRefinementOptions {
   // Of refine_worst: where more places are beyond the limit, only so many of the worst are mended. At least 1.
   std::size_t most_places = std::numeric_limits<std::size_t>::max();
   // Of refine_within, each bounded; at least 1.
-  int rounds = 10;
+  int rounds = 20;
 };
 
 struct LocalRefinementResult {
@@ -48,8 +49,14 @@ struct BoundedRefinementResult {
 };
 
 // Rounds of bounding and mending until the limit holds for every point, or nothing helps: the result says how near it
-// came. Not guaranteed: the fewest triangles. Each round costs a bound of the whole surface.
+// came. Places that nothing brings nearer are tried again with smaller angles allowed and more weight on the distance.
+// Not guaranteed: the fewest triangles. Each round costs a bound of the whole surface.
 BoundedRefinementResult refine_within(SurfaceMesh& mesh, const ReferenceSurface& scan,
+                                      const LocalRefinementOptions& options, const Progress& progress = {});
+
+// The same with features: vertices on the net's lines stay where they are, and new ones come between them. The net's
+// patches of faces are emptied.
+BoundedRefinementResult refine_within(SurfaceMesh& mesh, FeatureNet& net, const ReferenceSurface& scan,
                                       const LocalRefinementOptions& options, const Progress& progress = {});
 
 }  // namespace scan2fea

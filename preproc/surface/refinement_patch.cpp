@@ -28,6 +28,9 @@ using Index = HalfedgeMesh::Index;
 constexpr int most_steps = 6;
 // Of the merit, which is a fourth power of distances: a step must gain at least 3 % of the excess.
 constexpr double least_gain = 0.88;
+// Of the deviation's bounds, see DeviationBoundOptions.
+constexpr double close_tolerance = 0.02;
+constexpr double rough_tolerance = 0.3;
 // A step without insertions that gains so much needs none.
 constexpr double good_gain = 0.5;
 // Scan triangles longer than this part of the mean edge are cut, so that a patch answers for parts of large ones.
@@ -76,7 +79,9 @@ SurfaceMesh selected(const SurfaceMesh& mesh, const std::vector<bool>& keep) {
 // One state of a patch, and how good it is.
 struct Trial {
   SurfaceMesh patch;
-  bool sound = false;         // meets nothing, and is within the box
+  std::vector<LineEdge> lines;
+  bool sound = false;         // meets nothing, is within the box, no worse in shape than the state before, and nearer
+  bool meets = false;         // the surface around, or itself, or leaves the box
   std::size_t inverted = 0;   // faces
   double merit = 0;           // sum of ((deviation - limit) / limit)^4 over the faces of both sides beyond the limit
   double missing_angles = 0;  // degrees
@@ -94,10 +99,10 @@ struct Trial {
 class Surroundings {
  public:
   Surroundings(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& patch_faces,
-               const std::vector<std::uint32_t>& patch_vertices, const SurfaceMesh& patch,
-               const std::vector<bool>& fixed, const BoundingBox& box, const SurfaceMesh& scan,
-               const std::vector<std::uint32_t>& scan_faces, const PatchGoal& goal, double edge)
-      : goal_(goal), fixed_(fixed), box_(box), edge_(edge), shared_(patch_vertices.size()) {
+               const std::vector<std::uint32_t>& patch_vertices, const SurfaceMesh& patch, const std::vector<bool>& rim,
+               const BoundingBox& box, const SurfaceMesh& scan, const std::vector<std::uint32_t>& scan_faces,
+               const PatchGoal& goal, double edge)
+      : goal_(goal), rim_(rim), box_(box), edge_(edge), shared_(patch_vertices.size()) {
     std::vector<std::uint32_t> around;
     for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f)
       if (meet(face_box(mesh, mesh.triangles[f]), box) &&
@@ -111,18 +116,21 @@ class Surroundings {
   bool has_scan() const { return fit_scan_.has_value(); }
 
   // The state itself, without any fit.
-  Trial judged(SurfaceMesh patch) const {
-    Trial trial{.patch = std::move(patch)};
-    judge(trial);
+  Trial judged(Trial trial) const {
+    Trial worst;
+    worst.inverted = std::numeric_limits<std::size_t>::max();
+    worst.missing_angles = std::numeric_limits<double>::infinity();
+    worst.merit = std::numeric_limits<double>::infinity();
+    judge(trial, worst);
     return trial;
   }
 
-  // The state after a fit, or as far towards it as nothing meets.
-  Trial fitted(SurfaceMesh patch) const {
-    Trial trial{.patch = patch};
-    fit(trial.patch);
-    judge(trial);
-    if (trial.sound) return trial;
+  // The state after a fit, or as far towards it as nothing meets; shapes worse than those of `now` are not sound.
+  Trial fitted(Trial trial, const Trial& now) const {
+    const SurfaceMesh patch = trial.patch;
+    fit(trial);
+    judge(trial, now);
+    if (!trial.meets) return trial;
     SurfaceMesh moved = with_frozen(patch);
     if (!find_self_intersections(moved).empty()) return trial;
     std::vector<Vec3> targets = moved.vertices;
@@ -130,7 +138,15 @@ class Surroundings {
     move_clear(moved, targets, 2);
     trial.patch.vertices.assign(moved.vertices.begin(),
                                 moved.vertices.begin() + static_cast<std::ptrdiff_t>(trial.vertices()));
-    judge(trial);
+    judge(trial, now);
+    return trial;
+  }
+
+  // The state without a fit, its last vertex on the scan.
+  Trial placed(Trial trial, const Trial& now) const {
+    Vec3& point = trial.patch.vertices.back();
+    point = scan_tree_->closest(point, scan_tree_->leaf_order().front()).point;
+    judge(trial, now);
     return trial;
   }
 
@@ -139,6 +155,7 @@ class Surroundings {
     if (scan_faces.empty()) return;
     std::vector<std::uint32_t> vertices;
     scan_ = part_of(scan, scan_faces, vertices);
+    scan_tree_.emplace(scan_);
     const SurfaceMesh fine =
         refine_scan(scan_, {std::vector<double>(scan_.vertices.size(), edge_)}, longest_scan_edge, 8).mesh;
 
@@ -179,46 +196,66 @@ class Surroundings {
     return mesh;
   }
 
-  void fit(SurfaceMesh& patch) const {
+  void fit(Trial& trial) const {
     ShapeFitOptions options;
     options.rounds = 6;
     options.hold_faces_below = 1;
     options.fidelity_of_diagonal = std::min(0.09, goal_.fidelity / fit_scan_->diagonal);
     options.lift_tail_of_diagonal = tail_of_limit * goal_.limit / fit_scan_->diagonal;
     options.most_lift = most_lift;
-    options.constraints.assign(patch.vertices.size(), VertexConstraint::free);
-    for (std::size_t v = 0; v < fixed_.size(); ++v)
-      if (fixed_[v]) options.constraints[v] = VertexConstraint::fixed;
-    optimise_shape_and_fit(patch, *fit_scan_, options);
+    options.constraints.assign(trial.vertices(), VertexConstraint::free);
+    for (std::size_t v = 0; v < rim_.size(); ++v)
+      if (rim_[v]) options.constraints[v] = VertexConstraint::fixed;
+    for (const LineEdge& e : trial.lines)
+      options.constraints[e.from] = options.constraints[e.to] = VertexConstraint::fixed;
+    optimise_shape_and_fit(trial.patch, *fit_scan_, options);
   }
 
-  void judge(Trial& trial) const {
-    trial.sound = false;
+  // The cheaper questions first: most trials end at one of them.
+  void judge(Trial& trial, const Trial& now) const {
+    trial.sound = trial.meets = false;
     const SurfaceMesh& patch = trial.patch;
     for (const Vec3& p : patch.vertices)
-      if (!(p.array() > box_.low.array()).all() || !(p.array() < box_.high.array()).all()) return;
+      if (!(p.array() > box_.low.array()).all() || !(p.array() < box_.high.array()).all()) trial.meets = true;
+    if (trial.meets) return;
+    const SurfaceDefects defects =
+        find_defects(patch, *fit_scan_, scan_vertices_of_faces(patch, *fit_scan_), goal_.least_angle_deg);
+    trial.inverted = defects.inverted.size();
+    trial.missing_angles = defects.missing_angles_deg;
+    if (trial.inverted > now.inverted || trial.missing_angles > now.missing_angles) return;
     const SurfaceMesh around = with_frozen(patch);
     std::vector<std::uint32_t> own(patch.triangles.size());
     std::iota(own.begin(), own.end(), 0U);
-    if (!find_self_intersections(around, own).empty()) return;
-    const SurfaceDefects defects =
-        find_defects(patch, *fit_scan_, scan_vertices_of_faces(patch, *fit_scan_), goal_.least_angle_deg);
+    trial.meets = !find_self_intersections(around, own).empty();
+    if (trial.meets) return;
+    // Most trials only make things worse, which bounds that are not close tell as well.
+    const auto bound_patch = [&](double tolerance) {
+      return bound_one_sided_deviation(patch, scan_, {.limit = goal_.limit, .tolerance = tolerance});
+    };
+    const double enough = least_gain * now.merit;
+    if (merit_of(bound_patch(rough_tolerance).lower) > enough) return;
+    const OneSidedDeviation of_patch = bound_patch(close_tolerance);
+    trial.merit = merit_of(of_patch.upper);
+    if (trial.merit > enough) return;
+    const OneSidedDeviation of_scan =
+        bound_one_sided_deviation(answered_, around, {.limit = goal_.limit, .tolerance = close_tolerance});
+    trial.merit += merit_of(of_scan.upper);
+    if (trial.merit > enough) return;
     trial.sound = true;
-    trial.inverted = defects.inverted.size();
-    trial.missing_angles = defects.missing_angles_deg;
     trial.shape = 0;
     for (const Triangle& t : patch.triangles)
       trial.shape += shape_energy({}, patch.vertices[t[0]], patch.vertices[t[1]], patch.vertices[t[2]]).value;
 
-    const OneSidedDeviation of_patch = bound_one_sided_deviation(patch, scan_, {.limit = goal_.limit});
-    const OneSidedDeviation of_scan = bound_one_sided_deviation(answered_, around, {.limit = goal_.limit});
-    trial.merit = 0;
-    for (const OneSidedDeviation* side : {&of_patch, &of_scan})
-      for (const double d : side->upper) trial.merit += std::pow(std::max(0.0, d / goal_.limit - 1), 4);
     trial.worst = of_patch.worst_face;
     if (of_scan.largest_upper > of_patch.largest_upper)
       trial.worst = face_at(patch, of_scan.farthest[of_scan.worst_face],
                             area_vector(answered_, answered_.triangles[of_scan.worst_face]).normalized());
+  }
+
+  double merit_of(const std::vector<double>& deviation) const {
+    double merit = 0;
+    for (const double d : deviation) merit += std::pow(std::max(0.0, d / goal_.limit - 1), 4);
+    return merit;
   }
 
   // The face of the patch nearest to a point of the scan, one that faces the other way only if all others are far.
@@ -238,12 +275,13 @@ class Surroundings {
   }
 
   const PatchGoal& goal_;
-  const std::vector<bool>& fixed_;
+  const std::vector<bool>& rim_;
   const BoundingBox& box_;
   double edge_;
   std::size_t shared_;  // vertices of the patch as it was, which come first in frozen_
   SurfaceMesh frozen_;
-  SurfaceMesh scan_;      // within the box
+  SurfaceMesh scan_;  // within the box
+  std::optional<TriangleTree> scan_tree_;
   SurfaceMesh answered_;  // parts of it whose nearest face, whichever way that looks, was one of the patch
   SurfaceMesh fit_part_;  // and those that belong to the patch
   std::optional<ReferenceSurface> fit_scan_;
@@ -267,45 +305,73 @@ std::vector<Index> edges_around(const HalfedgeMesh& mesh, Index face) {
 }
 
 // The best of all sound trials, the first of equals; nothing where none is.
-std::optional<Trial> best_of(std::vector<Trial>& trials, const Trial& now) {
+std::optional<Trial> best_of(std::vector<Trial>& trials) {
   std::optional<Trial> best;
   for (Trial& t : trials) {
-    if (!t.sound || t.inverted > now.inverted || t.missing_angles > now.missing_angles) continue;
+    if (!t.sound) continue;
     if (!best || t.is_better(*best)) best = std::move(t);
   }
   return best;
 }
 
+bool is_line_edge(const HalfedgeMesh& mesh, Index h, const Trial& trial) {
+  const FeatureEdge edge = feature_edge(mesh.origin(h), mesh.target(h));
+  return std::any_of(trial.lines.begin(), trial.lines.end(), [&](const LineEdge& e) { return e.edge() == edge; });
+}
+
+// A new vertex in the middle of an edge; where that is on a line, in the middle of the line's piece.
+Trial with_split_edge(const HalfedgeMesh& mesh, Index h, const Trial& now, const FeatureNet& net) {
+  const FeatureEdge edge = feature_edge(mesh.origin(h), mesh.target(h));
+  Vec3 middle = 0.5 * (mesh.points[edge[0]] + mesh.points[edge[1]]);
+  Trial trial{.patch = {}, .lines = now.lines};
+  const auto v = static_cast<std::uint32_t>(now.vertices());
+  for (std::size_t i = 0; i < now.lines.size(); ++i) {
+    if (now.lines[i].edge() != edge) continue;
+    LineEdge first = now.lines[i], second = first;
+    first.to = second.from = v;
+    first.to_place = second.from_place = middle_place(net.lines[first.line], first.from_place, first.to_place);
+    middle = net.lines[first.line].point_at(first.to_place);
+    trial.lines[i] = first;
+    trial.lines.push_back(second);
+  }
+  std::vector<FeatureEdge> kept;
+  for (const LineEdge& e : trial.lines) kept.push_back(e.edge());
+  std::sort(kept.begin(), kept.end());
+  HalfedgeMesh changed = mesh;
+  restore_delaunay(changed, changed.split_edge(h, middle), {.crease_deg = 90, .kept = kept});
+  trial.patch = changed.to_surface();
+  return trial;
+}
+
 // One step: what lowers the deviation most; the cheaper ways first, and no other where they reach the limit.
-std::optional<Trial> next_state(const Trial& now, const Surroundings& surroundings, bool may_insert) {
+std::optional<Trial> next_state(const Trial& now, const Surroundings& surroundings, const FeatureNet& net,
+                                bool may_insert) {
   std::vector<Trial> trials;
-  trials.push_back(surroundings.fitted(now.patch));
-  std::optional<Trial> best = best_of(trials, now);
+  trials.push_back(surroundings.fitted(now, now));
+  std::optional<Trial> best = best_of(trials);
   if (best && best->merit == 0) return best;
 
   const HalfedgeMesh mesh(now.patch);
   const std::vector<Index> edges = edges_around(mesh, now.worst);
   trials.assign(edges.size() + 1, {});
   tbb::parallel_for(std::size_t{0}, edges.size(), [&](std::size_t i) {
+    if (!mesh.can_flip(edges[i]) || is_line_edge(mesh, edges[i], now)) return;
     HalfedgeMesh changed = mesh;
-    if (!changed.can_flip(edges[i])) return;
     changed.flip(edges[i]);
-    trials[i] = surroundings.fitted(changed.to_surface());
+    trials[i] = surroundings.fitted({.patch = changed.to_surface(), .lines = now.lines}, now);
   });
   if (best) trials.back() = std::move(*best);
-  best = best_of(trials, now);
+  best = best_of(trials);
   if (!may_insert || (best && best->merit <= good_gain * now.merit)) return best;
 
-  trials.assign(edges.size() + 1, {});
+  trials.assign(2 * edges.size() + 1, {});
   tbb::parallel_for(std::size_t{0}, edges.size(), [&](std::size_t i) {
-    HalfedgeMesh changed = mesh;
-    const Vec3 middle = 0.5 * (mesh.points[mesh.origin(edges[i])] + mesh.points[mesh.target(edges[i])]);
-    const Index v = changed.split_edge(edges[i], middle);
-    restore_delaunay(changed, v, {.crease_deg = 90});
-    trials[i] = surroundings.fitted(changed.to_surface());
+    const Trial split = with_split_edge(mesh, edges[i], now, net);
+    trials[2 * i] = surroundings.fitted(split, now);
+    if (split.lines.size() == now.lines.size()) trials[2 * i + 1] = surroundings.placed(split, now);
   });
   if (best) trials.back() = std::move(*best);
-  return best_of(trials, now);
+  return best_of(trials);
 }
 
 }  // namespace
@@ -316,7 +382,7 @@ BoundingBox face_box(const SurfaceMesh& mesh, const Triangle& t) {
 }
 
 RefinementPatch::RefinementPatch(const SurfaceMesh& mesh, const VertexStars& stars, std::uint32_t seed, int rings,
-                                 double deviation) {
+                                 double deviation, const std::vector<LineEdge>& lines) {
   std::vector<std::uint32_t> inner(mesh.triangles[seed].begin(), mesh.triangles[seed].end());
   const auto add_stars = [&](std::size_t first) {
     const std::size_t last = inner.size();
@@ -347,14 +413,27 @@ RefinementPatch::RefinementPatch(const SurfaceMesh& mesh, const VertexStars& sta
         if (neighbours[f][k] == no_face)
           for (const std::size_t other : {(k + 1) % 3, (k + 2) % 3}) ++rim_edges[patch_.triangles[f][other]];
     const std::size_t first = inner.size();
-    fixed_.assign(vertices_.size(), false);
+    rim_.assign(vertices_.size(), false);
     for (std::size_t v = 0; v < rim_edges.size(); ++v) {
-      fixed_[v] = rim_edges[v] > 0;
+      rim_[v] = rim_edges[v] > 0;
       if (rim_edges[v] > 2) add_vertex(vertices_[v]);
     }
     grown = inner.size() > first;
     if (grown) add_stars(first);
   }
+  for (const Triangle& t : patch_.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = t[k], b = t[(k + 1) % 3];
+      const FeatureEdge edge = feature_edge(vertices_[a], vertices_[b]);
+      const auto at = std::lower_bound(lines.begin(), lines.end(), edge,
+                                       [](const LineEdge& e, const FeatureEdge& wanted) { return e.edge() < wanted; });
+      if (at == lines.end() || at->edge() != edge) continue;
+      LineEdge own = *at;
+      own.from = at->from == vertices_[a] ? a : b;
+      own.to = own.from == a ? b : a;
+      if (std::none_of(lines_.begin(), lines_.end(), [&](const LineEdge& e) { return e.edge() == own.edge(); }))
+        lines_.push_back(own);
+    }
   edge_ = std::sqrt(4 / std::numbers::sqrt3 * surface_area(patch_) / static_cast<double>(faces_.size()));
   const double reach = 1.1 * deviation + 0.3 * edge_;
   box_ = bounding_box(patch_.vertices);
@@ -363,23 +442,25 @@ RefinementPatch::RefinementPatch(const SurfaceMesh& mesh, const VertexStars& sta
 }
 
 PatchOutcome RefinementPatch::improve(const SurfaceMesh& mesh, const SurfaceMesh& scan,
-                                      const std::vector<std::uint32_t>& scan_faces, const PatchGoal& goal) {
-  const Surroundings surroundings(mesh, faces_, vertices_, patch_, fixed_, box_, scan, scan_faces, goal, edge_);
+                                      const std::vector<std::uint32_t>& scan_faces, const FeatureNet& net,
+                                      const PatchGoal& goal) {
+  const Surroundings surroundings(mesh, faces_, vertices_, patch_, rim_, box_, scan, scan_faces, goal, edge_);
   if (!surroundings.has_scan()) return {};
-  Trial now = surroundings.judged(patch_);
+  Trial now = surroundings.judged({.patch = patch_, .lines = lines_});
   if (!now.sound) return {};
   bool improved = false;
   for (int step = 0; step < most_steps && now.merit > 0; ++step) {
-    std::optional<Trial> next = next_state(now, surroundings, inserted() < goal.most_vertices);
-    if (!next || next->merit > least_gain * now.merit) break;
+    std::optional<Trial> next = next_state(now, surroundings, net, inserted() < goal.most_vertices);
+    if (!next) break;
     now = std::move(*next);
     patch_ = now.patch;
+    lines_ = now.lines;
     improved = true;
   }
   return {.improved = improved, .reached = now.merit == 0};
 }
 
-void RefinementPatch::write(SurfaceMesh& mesh) const {
+void RefinementPatch::write(SurfaceMesh& mesh, FeatureNet& net) const {
   std::vector<std::uint32_t> number = vertices_;
   for (std::size_t v = 0; v < patch_.vertices.size(); ++v) {
     if (v < vertices_.size()) {
@@ -388,6 +469,13 @@ void RefinementPatch::write(SurfaceMesh& mesh) const {
       number.push_back(static_cast<std::uint32_t>(mesh.vertices.size()));
       mesh.vertices.push_back(patch_.vertices[v]);
     }
+  }
+  for (const LineEdge& e : lines_) {
+    if (e.from < vertices_.size()) continue;
+    std::vector<VertexOnLine>& on_line = net.lines[e.line].vertices;
+    const auto at = std::upper_bound(on_line.begin(), on_line.end(), e.from_place,
+                                     [](double place, const VertexOnLine& other) { return place < other.place; });
+    on_line.insert(at, {number[e.from], e.from_place});
   }
   for (std::size_t f = 0; f < patch_.triangles.size(); ++f) {
     const Triangle& t = patch_.triangles[f];

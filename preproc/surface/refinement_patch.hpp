@@ -8,6 +8,7 @@
 
 #include "preproc/mesh/surface_mesh.hpp"
 #include "preproc/surface/adjacency.hpp"
+#include "preproc/surface/feature_net.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -33,8 +34,10 @@ BoundingBox face_box(const SurfaceMesh& mesh, const Triangle& t);
 class RefinementPatch {
  public:
   // The faces around the vertices of face `seed` and those within `rings` rings of them. `deviation`: of the place; so
-  // far, and a bit more, the scan and the surface around are looked at. O(faces of the patch).
-  RefinementPatch(const SurfaceMesh& mesh, const VertexStars& stars, std::uint32_t seed, int rings, double deviation);
+  // far, and a bit more, the scan and the surface around are looked at. `lines`: edges of the mesh whose vertices
+  // stay as they are, which may be split where their lines are; see line_edges. O(faces of the patch).
+  RefinementPatch(const SurfaceMesh& mesh, const VertexStars& stars, std::uint32_t seed, int rings, double deviation,
+                  const std::vector<LineEdge>& lines);
 
   // Everything that `improve` reads and writes lies in here: patches whose boxes do not meet may be improved at once
   // and written one after the other.
@@ -45,17 +48,19 @@ class RefinementPatch {
   // inverts a face against the scan. A few ms a trial and thousand scan faces; about 20 trials a step, at most 6 steps.
   // Deterministic, whatever the number of threads.
   PatchOutcome improve(const SurfaceMesh& mesh, const SurfaceMesh& scan, const std::vector<std::uint32_t>& scan_faces,
-                       const PatchGoal& goal);
+                       const FeatureNet& net, const PatchGoal& goal);
 
   std::size_t inserted() const { return patch_.vertices.size() - vertices_.size(); }
 
-  // Puts the patch in its place; new vertices and faces go to the end of the mesh's.
-  void write(SurfaceMesh& mesh) const;
+  // Puts the patch in its place, and its new vertices on the net's lines; new vertices and faces go to the end of the
+  // mesh's.
+  void write(SurfaceMesh& mesh, FeatureNet& net) const;
 
  private:
   std::vector<std::uint32_t> faces_;     // of the mesh
   std::vector<std::uint32_t> vertices_;  // of the mesh, in the order of the patch's
-  std::vector<bool> fixed_;              // per vertex: on the patch's rim
+  std::vector<bool> rim_;                // per vertex: on the patch's rim
+  std::vector<LineEdge> lines_;          // by the patch's vertices
   SurfaceMesh patch_;
   double edge_ = 0;  // mean edge length of the patch as it was
   BoundingBox box_;
