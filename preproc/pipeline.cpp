@@ -93,6 +93,7 @@ void describe(const SimplifyResult& result, const TargetSize& size, StageRecord&
     record.changes.emplace_back("feature_edges_after", static_cast<double>(result.feature_edges_kept));
   }
   if (!result.feature_remark.empty()) record.remarks.push_back(result.feature_remark);
+  if (!result.size_remark.empty()) record.remarks.push_back(result.size_remark);
   if (result.largest_deviation > 0) record.changes.emplace_back("largest_deviation", result.largest_deviation);
   const auto* aim = std::get_if<LargestDeviation>(&size);
   if (aim != nullptr && result.largest_deviation > aim->distance)

@@ -127,6 +127,88 @@ class Chains {
   std::vector<int> free_ends_;
 };
 
+// The creases at each vertex, and how they bend.
+class CreaseGraph {
+ public:
+  struct Branch {
+    std::vector<std::uint32_t> vertices;  // from the corner on
+    double length = 0, bend = 0;          // angle between the faces' normals, times length
+  };
+
+  CreaseGraph(const SurfaceMesh& scan, const std::vector<FeatureEdge>& sharp) : scan_(scan) {
+    for (const auto& [a, b] : sharp) {
+      next_[a].push_back(b);
+      next_[b].push_back(a);
+    }
+    const VertexStars stars(scan);
+    const std::vector<Triangle> neighbours = face_neighbours(scan, stars);
+    const std::vector<Vec3> normals = face_normals(scan);
+    for (std::uint32_t f = 0; f < scan.triangles.size(); ++f)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const FeatureEdge edge = feature_edge(scan.triangles[f][(k + 1) % 3], scan.triangles[f][(k + 2) % 3]);
+        const std::uint32_t g = neighbours[f][k];
+        if (g != no_face && std::binary_search(sharp.begin(), sharp.end(), edge))
+          bend_[edge] = std::atan2(normals[f].cross(normals[g]).norm(), normals[f].dot(normals[g]));
+      }
+  }
+
+  std::uint32_t nearest(const Vec3& place) const {
+    std::uint32_t best = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& [v, around] : next_)
+      if (const double distance = (scan_.vertices[v] - place).squaredNorm(); distance < least) {
+        least = distance;
+        best = v;
+      }
+    return best;
+  }
+
+  // Along the creases from a corner as far as `reach` from it, or to the next corner.
+  std::vector<Branch> branches(std::uint32_t corner, double reach) const {
+    std::vector<Branch> result;
+    for (std::uint32_t v : next_.at(corner)) {
+      Branch branch{{corner}};
+      for (std::uint32_t last = corner; v != corner;) {
+        const double length = (scan_.vertices[v] - scan_.vertices[last]).norm();
+        branch.vertices.push_back(v);
+        branch.length += length;
+        if (const auto bend = bend_.find(feature_edge(last, v)); bend != bend_.end())
+          branch.bend += length * bend->second;
+        const std::vector<std::uint32_t>& around = next_.at(v);
+        if (around.size() != 2 || (scan_.vertices[v] - scan_.vertices[corner]).norm() > reach) break;
+        const std::uint32_t ahead = around[0] == last ? around[1] : around[0];
+        last = v;
+        v = ahead;
+      }
+      result.push_back(std::move(branch));
+    }
+    return result;
+  }
+
+  double distance(const Vec3& p, const Branch& branch) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i + 1 < branch.vertices.size(); ++i) {
+      const Vec3 &a = scan_.vertices[branch.vertices[i]], &b = scan_.vertices[branch.vertices[i + 1]];
+      const double along = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+      least = std::min(least, (p - a - along * (b - a)).norm());
+    }
+    return least;
+  }
+
+  // As seen from a distance.
+  Vec3 direction(const Branch& branch, double distance) const {
+    const Vec3& corner = scan_.vertices[branch.vertices.front()];
+    for (const std::uint32_t v : branch.vertices)
+      if ((scan_.vertices[v] - corner).norm() > distance) return (scan_.vertices[v] - corner).normalized();
+    return (scan_.vertices[branch.vertices.back()] - corner).normalized();
+  }
+
+ private:
+  const SurfaceMesh& scan_;
+  std::map<std::uint32_t, std::vector<std::uint32_t>> next_;
+  std::map<FeatureEdge, double> bend_;
+};
+
 }  // namespace
 
 std::vector<FeatureEdge> select_features(const SurfaceMesh& scan, std::vector<FeatureEdge> sharp, double edge_length,
@@ -159,6 +241,37 @@ std::vector<FeatureEdge> without_short_creases_near(const SurfaceMesh& scan, con
   std::vector<FeatureEdge> kept = sharp;
   std::erase_if(kept, [&](const FeatureEdge& e) { return dropped.contains(chains.of(e)); });
   return kept;
+}
+
+std::vector<FeatureEdge> without_narrow_corners(const SurfaceMesh& scan, const std::vector<FeatureEdge>& sharp,
+                                                const std::vector<SharpCorner>& corners) {
+  constexpr double narrow = 0.6, reach = 4;  // edges
+  const CreaseGraph graph(scan, sharp);
+  std::set<FeatureEdge> dropped;
+  for (const SharpCorner& corner : corners) {
+    const std::vector<CreaseGraph::Branch> branches =
+        graph.branches(graph.nearest(corner.place), reach * corner.edge_length);
+    const CreaseGraph::Branch *kept = nullptr, *smoother = nullptr;
+    double closest = 0;  // cosine: a right angle is not narrow
+    for (const auto& a : branches)
+      for (const auto& b : branches)
+        if (const double cosine =
+                graph.direction(a, corner.edge_length / 2).dot(graph.direction(b, corner.edge_length / 2));
+            &a < &b && cosine > closest) {
+          closest = cosine;
+          const bool a_is_smoother = a.bend / a.length < b.bend / b.length;
+          smoother = a_is_smoother ? &a : &b;
+          kept = a_is_smoother ? &b : &a;
+        }
+    if (smoother == nullptr) continue;
+    for (std::size_t i = 0; i + 1 < smoother->vertices.size(); ++i) {
+      dropped.insert(feature_edge(smoother->vertices[i], smoother->vertices[i + 1]));
+      if (graph.distance(scan.vertices[smoother->vertices[i + 1]], *kept) > narrow * corner.edge_length) break;
+    }
+  }
+  std::vector<FeatureEdge> left = sharp;
+  std::erase_if(left, [&](const FeatureEdge& e) { return dropped.contains(e); });
+  return left;
 }
 
 }  // namespace scan2fea

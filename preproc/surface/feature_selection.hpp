@@ -29,4 +29,16 @@ std::vector<FeatureEdge> select_features(const SurfaceMesh& scan, std::vector<Fe
 std::vector<FeatureEdge> without_short_creases_near(const SurfaceMesh& scan, const std::vector<FeatureEdge>& sharp,
                                                     const std::vector<Vec3>& places, double reach, double longest);
 
+// A place on the surface, and how long the result's edges are there, model units.
+struct SharpCorner {
+  Vec3 place;
+  double edge_length;
+};
+
+// Without the narrow part of the narrowest corner at each of the places: of the two creases that meet there, the
+// smoother is given up from the corner on until they are more than 0.6 edges apart; triangles of that size could not
+// lie between them. Sorted as given.
+std::vector<FeatureEdge> without_narrow_corners(const SurfaceMesh& scan, const std::vector<FeatureEdge>& sharp,
+                                                const std::vector<SharpCorner>& corners);
+
 }  // namespace scan2fea

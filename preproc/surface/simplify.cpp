@@ -6,6 +6,7 @@
 #include "preproc/surface/feature_selection.hpp"
 #include "preproc/surface/match_features.hpp"
 #include "preproc/surface/refined_scan.hpp"
+#include "preproc/surface/shape_renewal.hpp"
 #include "preproc/surface/surface_candidate.hpp"
 
 #include <algorithm>
@@ -107,9 +108,15 @@ SimplifyResult simplify(const SurfaceMesh& mesh, SurfaceMesh& surface, const Sim
                                [](double a, double b) { return std::min(a, b); });
       sizing.factors = factors;
     }
-    Candidate candidate = make_surface(scan, sizing, options, options.effort, result, progress);
-    if (result.method == SimplifyMethod::lattice) lower_worst(candidate, scan, options.effort, result, progress);
-    open_wedges(candidate, scan, options);
+    Candidate candidate = options.for_tetrahedra
+                              ? make_shaped_surface(scan, sizing, options, result, progress)
+                              : make_surface(scan, sizing, options, options.effort, result, progress);
+    if (!options.for_tetrahedra && result.method == SimplifyMethod::lattice)
+      lower_worst(candidate, scan, options.effort, result, progress);
+    if (const auto made = static_cast<double>(candidate.mesh.triangles.size()); made > 1.01 * faces + 1)
+      result.size_remark = "triangles of the wanted size cannot be well shaped everywhere: made " +
+                           std::to_string(candidate.mesh.triangles.size()) + " instead of " +
+                           std::to_string(std::lround(faces));
     surface = std::move(candidate.mesh);
   }
   return result;

@@ -68,6 +68,7 @@ struct SimplifyResult {
   FeatureLines features;             // the creases of the scan that were to be kept
   // Where triangles of the wanted size are too large for the features: how that was settled; empty where it was not so.
   std::string feature_remark;
+  std::string size_remark;             // where more triangles were made than were asked for
   std::size_t feature_edges_kept = 0;  // edges of the result that stand for creases and borders
 };
 

@@ -228,9 +228,6 @@ Candidate by_lattice_with_creases(PreparedScan& scan, SizingOptions sizing, Effo
       if (kept < creases)
         result.feature_remark = too_large + std::to_string(creases - kept) + " of " + std::to_string(creases) +
                                 " edges of creases are not kept";
-      if (static_cast<double>(candidate.mesh.triangles.size()) > 1.005 * wanted + 1)
-        result.feature_remark = too_large + "made " + std::to_string(candidate.mesh.triangles.size()) + " instead of " +
-                                std::to_string(std::lround(wanted));
       return candidate;
     }
     if (drop_short_creases(scan, candidate)) continue;
