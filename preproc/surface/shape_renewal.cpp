@@ -24,8 +24,8 @@ constexpr double reach = 1.5;               // around it, over its longest edge
 constexpr double gradation_around_bad = 2;  // over the surface's
 constexpr int most_renewals = 11;
 // In a row, without a gain that is worth it; for many triangles none.
-constexpr int most_in_vain = 2;
-constexpr double worth_it_deg = 1;
+constexpr int most_in_vain = 3;
+constexpr double worth_it_deg = 0.5;
 constexpr std::size_t many_triangles = 5000;
 // Of the triangles: so many bad ones are mended all at once where no crease could be kept.
 constexpr double share_of_many = 0.1;
@@ -33,6 +33,8 @@ constexpr double share_of_many = 0.1;
 constexpr double most_triangles = 3, few_triangles = 4000;
 // A wall is looked for up to this depth, in edges. Its sides face one another within 37 degrees.
 constexpr double deepest_wall = 0.5, opposing = -0.8;
+// Cosine of what normals beside a place may differ by for it to have one.
+constexpr double flat = 0.7;
 
 struct BadPlace {
   Vec3 centre;
@@ -65,6 +67,7 @@ class ShapeCheck {
       : mesh_(candidate.mesh),
         tree_(candidate.mesh),
         neighbours_(face_neighbours(candidate.mesh, VertexStars(candidate.mesh))),
+        normals_(vertex_normals(candidate.mesh)),
         creases_(edges_of(candidate.net)) {}
 
   ShapeDefects defects() const {
@@ -114,28 +117,49 @@ class ShapeCheck {
     return half < least_angle_deg && is_crease(a, b) ? 180 : half;
   }
 
-  // Where the other side of the body is so near that elements across it are flat: the angle at the base of the
-  // element over this triangle that ends there.
+  // Where the other side of the body is so near that elements across it are flat: the angle at the base of the element
+  // over a triangle of this size that ends there.
+  double wall_angle(const Vec3& place, const Vec3& outward, double edge, std::uint32_t f) const {
+    const double depth = deepest_wall / 2 * edge;
+    const Vec3 inside = place - depth * outward;
+    const ClosestPoint nearest = tree_.closest(inside, f);
+    const double distance = std::sqrt(nearest.squared_distance);
+    const Triangle& other = mesh_.triangles[nearest.triangle];
+    const Vec3 opposite = area_vector(mesh_, other);
+    if (distance > 0.999 * depth || opposite.dot(outward) > opposing * opposite.norm()) return 180;
+    const Triangle& t = mesh_.triangles[f];
+    for (const std::uint32_t v : other)
+      if (v == t[0] || v == t[1] || v == t[2]) return 180;  // a wedge, not a wall
+    const bool beyond = (inside - nearest.point).dot(opposite) > 0;
+    const double thickness = beyond ? depth - distance : depth + distance;
+    const double angle = std::atan(thickness / (std::sqrt(0.75) * edge)) * degrees;
+    return angle < least_across_wall_deg ? angle : 180;
+  }
+
+  // Behind its centre, its corners and the middles of its sides, where these are not on edges of the part.
   double wall_angle(std::uint32_t f) const {
     const Triangle& t = mesh_.triangles[f];
     const Vec3 normal = area_vector(mesh_, t);
     const double edge = std::sqrt(normal.norm() / (2 * equilateral_area));
-    const double depth = deepest_wall / 2 * edge;
-    const Vec3 centre = (mesh_.vertices[t[0]] + mesh_.vertices[t[1]] + mesh_.vertices[t[2]]) / 3;
-    const ClosestPoint nearest = tree_.closest(centre - depth * normal.normalized(), f);
-    const double distance = std::sqrt(nearest.squared_distance);
-    const Triangle& other = mesh_.triangles[nearest.triangle];
-    const Vec3 opposite = area_vector(mesh_, other);
-    if (distance > 0.999 * depth || opposite.dot(normal) > opposing * opposite.norm() * normal.norm()) return 180;
-    for (const std::uint32_t v : other)
-      if (v == t[0] || v == t[1] || v == t[2]) return 180;  // a wedge, not a wall
-    const double angle = std::atan((depth + distance) / (std::sqrt(0.75) * edge)) * degrees;
-    return angle < least_across_wall_deg ? angle : 180;
+    const auto& p = mesh_.vertices;
+    double least = wall_angle((p[t[0]] + p[t[1]] + p[t[2]]) / 3, normal.normalized(), edge, f);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t g = neighbours_[f][k];
+      if (normals_[t[k]].dot(normal) > flat * normal.norm())
+        least = std::min(least, wall_angle(p[t[k]], normals_[t[k]], edge, f));
+      if (g == no_face || g < f) continue;
+      const Vec3 other = area_vector(mesh_, mesh_.triangles[g]);
+      if (other.dot(normal) > flat * other.norm() * normal.norm())
+        least = std::min(
+            least, wall_angle((p[t[(k + 1) % 3]] + p[t[(k + 2) % 3]]) / 2, (normal + other).normalized(), edge, f));
+    }
+    return least;
   }
 
   const SurfaceMesh& mesh_;
   TriangleTree tree_;
   std::vector<Triangle> neighbours_;
+  std::vector<Vec3> normals_;
   std::vector<FeatureEdge> creases_;
 };
 
@@ -175,7 +199,8 @@ Candidate make_shaped_surface(PreparedScan& scan, const SizingOptions& sizing, c
     const std::size_t triangles = candidate.mesh.triangles.size();
     const bool lattice_failed = !made.fallback_reason.empty();
     const bool lost_creases = !creases.empty() && made.feature_edges_kept == 0;
-    in_vain = defects.sharpest() > best_defects.sharpest() + worth_it_deg ? 0 : in_vain + 1;
+    const bool gained = renewal == 0 || defects.sharpest() > best_defects.sharpest() + worth_it_deg;
+    in_vain = gained ? 0 : in_vain + 1;
     if (renewal == 0 || defects.better_than(best_defects)) {
       best = std::move(candidate);
       best_defects = defects;
