@@ -27,10 +27,10 @@ constexpr int most_renewals = 11;
 constexpr int most_in_vain = 3;
 constexpr double worth_it_deg = 0.5;
 constexpr std::size_t many_triangles = 5000;
-// Of the triangles: so many bad ones are mended all at once where no crease could be kept.
+// Of the triangles, that are bad.
 constexpr double share_of_many = 0.1;
 // Over those wanted; and what a small part may have in any case.
-constexpr double most_triangles = 3, few_triangles = 4000;
+constexpr double most_triangles = 3, few_triangles = 8000;
 // A wall is looked for up to this depth, in edges. Its sides face one another within 37 degrees.
 constexpr double deepest_wall = 0.5, opposing = -0.8;
 // Cosine of what normals beside a place may differ by for it to have one.
@@ -216,9 +216,12 @@ Candidate make_shaped_surface(PreparedScan& scan, const SizingOptions& sizing, c
       renewed.smallest = 0.01;
       renewed.largest = 100;
     }
+    // What cannot be kept but by smaller triangles everywhere is not asked for again where few are bad without it.
+    const bool many_bad = defects.bad.size() > share_of_many * static_cast<double>(triangles);
+    if (lost_creases && !lattice_failed && !many_bad) creases.clear();
     creases = without_narrow_corners(scan.mesh, creases, defects.sharp_corners);
     scan.keep_creases(creases);
-    if (lattice_failed || (lost_creases && defects.bad.size() > share_of_many * static_cast<double>(triangles)))
+    if (lattice_failed || (lost_creases && many_bad))
       for (double& l : length) l *= least_shortening;
     else
       shorten_around(defects.bad, scan.mesh, length);
