@@ -3,6 +3,7 @@
 #include "preproc/mesh/error.hpp"
 #include "preproc/volume/mid_edge_nodes.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -116,6 +117,14 @@ void describe(const TetrahedralizeResult& result, StageRecord& record) {
   if (result.optimised.stopped_by_time) record.remarks.push_back("the time limit ended the optimisation early");
 }
 
+// Between two sides whose triangles are as wide as half of the wall there are nodes everywhere only if those inside are
+// about as near to one another.
+void need_nodes_in_walls(TetrahedralizeOptions& options) {
+  constexpr double of_surface = 1.3;
+  if (options.interior_size.unit == InteriorSize::Unit::of_surface)
+    options.interior_size.value = std::min(options.interior_size.value, of_surface);
+}
+
 }  // namespace
 
 PipelineResult run_pipeline(SurfaceMesh scan, const PipelineOptions& options, const Progress& progress,
@@ -141,7 +150,9 @@ PipelineResult run_pipeline(SurfaceMesh scan, const PipelineOptions& options, co
     });
   if (options.tetrahedralize) {
     log.run("tetrahedralize", [&](StageRecord& record) {
-      TetrahedralizeResult filled = tetrahedralize(result.surface, *options.tetrahedralize, progress);
+      TetrahedralizeOptions tetrahedralization = *options.tetrahedralize;
+      if (options.simplify && options.simplify->limits.elements_across) need_nodes_in_walls(tetrahedralization);
+      TetrahedralizeResult filled = tetrahedralize(result.surface, tetrahedralization, progress);
       describe(filled, record);
       result.volume_mesh = std::move(filled.mesh);
     });

@@ -170,6 +170,44 @@ void add_enrich_flags(CLI::App& command, EnrichOptions& options) {
       ->type_name("X Y Z X Y Z");
 }
 
+namespace {
+
+// An option of `numbers` numbers that may be given several times: in a row where a file gives them.
+void add_repeated(CLI::App& command, const char* name, int numbers, const char* type, const char* help,
+                  const std::function<void(const double*)>& take) {
+  command
+      .add_option_function<std::vector<double>>(
+          name,
+          [take, numbers](const std::vector<double>& values) {
+            for (std::size_t i = 0; i < values.size(); i += static_cast<std::size_t>(numbers)) take(values.data() + i);
+          },
+          help)
+      ->type_size(numbers)
+      ->expected(1, CLI::detail::expected_max_vector_size)
+      ->allow_extra_args(false)
+      ->type_name(type);
+}
+
+void add_size_limit_flags(CLI::App& command, SizeLimits& limits) {
+  add_repeated(
+      command, "--size-box", 7, "X Y Z X Y Z L", "Edges of at most L in this box; may be given several times",
+      [&limits](const double* v) {
+        limits.boxes.push_back({.box = {.low = {v[0], v[1], v[2]}, .high = {v[3], v[4], v[5]}}, .length = v[6]});
+      });
+  add_repeated(command, "--size-ball", 5, "X Y Z R L", "Edges of at most L in this ball; may be given several times",
+               [&limits](const double* v) {
+                 limits.balls.push_back({.ball = {.centre = {v[0], v[1], v[2]}, .radius = v[3]}, .length = v[4]});
+               });
+  command
+      .add_option_function<int>(
+          "--elements-across", [&limits](int elements) { limits.elements_across = elements; },
+          "Edges short enough for so many elements across every wall, 1 to 10")
+      ->check(CLI::Range(1, 10))
+      ->type_name("N");
+}
+
+}  // namespace
+
 void add_simplify_flags(CLI::App& command, SimplifyOptions& options) {
   CLI::Option* method =
       add_choice<SimplifyMethod>(command, "--method", options.method,
@@ -200,6 +238,7 @@ void add_simplify_flags(CLI::App& command, SimplifyOptions& options) {
       ->capture_default_str()
       ->check(CLI::Range(0.02, 1.0))
       ->type_name("G");
+  add_size_limit_flags(command, options.limits);
   command
       .add_option_function<std::string>(
           "--feature-angle",

@@ -28,6 +28,11 @@ struct BoundingBox {
   double diagonal() const { return (high - low).norm(); }
 };
 
+struct Ball {
+  Vec3 centre = Vec3::Zero();
+  double radius = 0;
+};
+
 // Of all vertices, used by a triangle or not; zero where there are none.
 BoundingBox bounding_box(const std::vector<Vec3>& points);
 

@@ -117,11 +117,16 @@ double most_growing_after(int trial, double mean_edge_ratio) {
 }  // namespace
 
 Candidate make_surface_within(PreparedScan& scan, const LargestDeviation& wanted, double most_triangles,
-                              const SimplifyOptions& options, SimplifyResult& result, const Progress& progress) {
+                              std::span<const double> longest, const SimplifyOptions& options, SimplifyResult& result,
+                              const Progress& progress) {
   const double distance = wanted.distance;
   const SimplifyResult given = result;
   const std::vector<FeatureEdge> creases = scan.features().sharp;
   std::vector<double> length(scan.mesh.vertices.size(), first_edge_over_deviation * distance);
+  const auto keep_within_limits = [&] {
+    for (std::size_t v = 0; v < longest.size(); ++v) length[v] = std::min(length[v], longest[v]);
+  };
+  keep_within_limits();
   std::vector<double> deviation;
   Found best;
   for (int trial = 0; trial < most_trials; ++trial) {
@@ -140,6 +145,7 @@ Candidate make_surface_within(PreparedScan& scan, const LargestDeviation& wanted
     // What was too fine for the first guess need not be for the next.
     if (first && scan.features().sharp != creases) scan.keep_creases(creases);
     renew(length, deviation, distance, most_growing);
+    keep_within_limits();
   }
   if (!best.holds(distance)) bring_within(best, scan, distance, progress);
   // The deviation that was asked for comes before the tetrahedra.

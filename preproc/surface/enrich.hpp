@@ -23,10 +23,6 @@
 namespace scan2fea {
 
 struct WholeSurface {};
-struct Ball {
-  Vec3 centre = Vec3::Zero();
-  double radius = 0;  // model units
-};
 // The part of the surface that may be enriched.
 using EnrichDomain = std::variant<WholeSurface, BoundingBox, Ball>;
 

@@ -80,18 +80,28 @@ SimplifyResult simplify(const SurfaceMesh& mesh, SurfaceMesh& surface, const Sim
       .least = std::max(curve_tolerance * bounding_box(mesh.vertices).diagonal(), noise_on_curves * features.noise)};
   if (const auto* bound = std::get_if<LargestDeviation>(&options.size))
     tolerance.largest = curves_over_deviation * bound->distance;
+  if (options.method == SimplifyMethod::collapse && !options.limits.empty())
+    throw WrongUsage({.what = "boxes, balls and elements across walls need the lattice method",
+                      .where = {},
+                      .value = {},
+                      .limit = {},
+                      .advice = "--method lattice"});
   // Faces of CAD are far larger than the result's; searches for what is near want them alike.
+  const bool part = !features.edges.empty() || !options.limits.empty();
   SurfaceMesh parted;
-  if (!features.edges.empty()) {
+  if (part) {
     parted = mesh;
     std::vector<double> length(mesh.vertices.size(), edge);
     halve_long_edges(parted, length, features.edges, longest_edge_of_part, longest_edge_of_part);
+    refine_within_limits(parted, features.edges, options.limits);
   }
-  const SurfaceMesh& whole = features.edges.empty() ? mesh : parted;
+  const SurfaceMesh& whole = part ? parted : mesh;
+  std::vector<double> longest;
+  if (!options.limits.empty()) longest = longest_edges(whole, options.limits, longest_edge_of_part * edge);
   PreparedScan scan(whole, std::move(features.edges), tolerance);
   result.faces_before = mesh.triangles.size();
   if (const auto* bound = std::get_if<LargestDeviation>(&options.size)) {
-    surface = make_surface_within(scan, *bound, most_triangles_of(mesh), options, result, progress).mesh;
+    surface = make_surface_within(scan, *bound, most_triangles_of(mesh), longest, options, result, progress).mesh;
   } else {
     const double faces = wanted_faces(options.size, mesh);
     require_positive(faces, "the number of triangles");
@@ -108,15 +118,29 @@ SimplifyResult simplify(const SurfaceMesh& mesh, SurfaceMesh& surface, const Sim
                                [](double a, double b) { return std::min(a, b); });
       sizing.factors = factors;
     }
+    std::vector<double> length;
+    if (!longest.empty()) {
+      const std::vector<double> wanted =
+          compute_sizing_field(whole, sizing, scan.has_features() ? &scan.features().cut : nullptr).edge_length;
+      const bool keeps_count = !std::holds_alternative<MeanEdgeLength>(options.size);
+      length = within_limits(whole, wanted, longest, options.gradation,
+                             keeps_count ? std::optional(sizing.triangles) : std::nullopt);
+      ask_for_lengths(whole, length, sizing);
+      if (keeps_count && sizing.triangles > 1.01 * faces)
+        result.size_remark = "boxes, balls and elements across walls need about " +
+                             std::to_string(std::lround(sizing.triangles)) + " triangles instead of " +
+                             std::to_string(std::lround(faces));
+    }
+    const double asked = sizing.triangles;
     Candidate candidate = options.for_tetrahedra
                               ? make_shaped_surface(scan, sizing, options, result, progress)
                               : make_surface(scan, sizing, options, options.effort, result, progress);
     if (!options.for_tetrahedra && result.method == SimplifyMethod::lattice)
       lower_worst(candidate, scan, options.effort, result, progress);
-    if (const auto made = static_cast<double>(candidate.mesh.triangles.size()); made > 1.01 * faces + 1)
+    if (const auto made = static_cast<double>(candidate.mesh.triangles.size()); made > 1.01 * asked + 1)
       result.size_remark = "triangles of the wanted size cannot be well shaped everywhere: made " +
                            std::to_string(candidate.mesh.triangles.size()) + " instead of " +
-                           std::to_string(std::lround(faces));
+                           std::to_string(std::lround(asked));
     surface = std::move(candidate.mesh);
   }
   return result;

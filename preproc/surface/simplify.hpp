@@ -9,6 +9,7 @@
 #include "preproc/surface/collapse.hpp"
 #include "preproc/surface/feature_file.hpp"
 #include "preproc/surface/features.hpp"
+#include "preproc/surface/size_limits.hpp"
 #include "preproc/surface/sizing_field.hpp"
 
 #include <cstddef>
@@ -47,6 +48,7 @@ struct SimplifyOptions {
   Effort effort = Effort::normal;
   Sizing sizing = Sizing::curvature;
   double gradation = 0.12;  // largest |grad h| of the edge length h, 0.02 to 1; smaller is smoother
+  SizeLimits limits;        // for the `lattice` method
   // Open edges that are sharper than the scan, since half their angle bounds that of tetrahedra (wedges.hpp). It costs
   // distance in thin folds: on the Horse at 12,604 triangles 0.0173 % RMS instead of 0.0159 %.
   bool for_tetrahedra = false;

@@ -224,6 +224,14 @@ double predicted_triangles(const SurfaceMesh& scan, const SizingField& field) {
   return count;
 }
 
+void ask_for_lengths(const SurfaceMesh& scan, std::span<const double> edge_length, SizingOptions& options) {
+  options.sizing = Sizing::uniform;  // but for the factors; the number of triangles sets their scale
+  options.factors = edge_length;
+  options.smallest = 0.01;
+  options.largest = 100;
+  options.triangles = predicted_triangles(scan, {{edge_length.begin(), edge_length.end()}});
+}
+
 void limit_gradation(const SurfaceMesh& scan, double gradation, std::vector<double>& edge_length) {
   limit_gradation(Scan(scan), gradation, edge_length);
 }

@@ -53,6 +53,9 @@ double predicted_triangles(const SurfaceMesh& scan, const SizingField& field);
 SizingField compute_sizing_field(const SurfaceMesh& scan, const SizingOptions& options,
                                  const CutSurface* cut = nullptr);
 
+// Asks for these lengths, and for the number of triangles that they give. Keeps a reference to them.
+void ask_for_lengths(const SurfaceMesh& scan, std::span<const double> edge_length, SizingOptions& options);
+
 // Lowers lengths until none exceeds a neighbour's by more than `gradation` times the edge between them. O(n log n).
 void limit_gradation(const SurfaceMesh& scan, double gradation, std::vector<double>& edge_length);
 
