@@ -217,7 +217,7 @@ Candidate make_shaped_surface(PreparedScan& scan, const SizingOptions& sizing, c
       renewed.largest = 100;
     }
     // What cannot be kept but by smaller triangles everywhere is not asked for again where few are bad without it.
-    const bool many_bad = defects.bad.size() > share_of_many * static_cast<double>(triangles);
+    const bool many_bad = static_cast<double>(defects.bad.size()) > share_of_many * static_cast<double>(triangles);
     if (lost_creases && !lattice_failed && !many_bad) creases.clear();
     creases = without_narrow_corners(scan.mesh, creases, defects.sharp_corners);
     scan.keep_creases(creases);

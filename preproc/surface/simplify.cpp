@@ -22,6 +22,9 @@ constexpr double fewest_faces = 4;
 // Of a scan with creases, over the result's mean edge.
 constexpr double longest_edge_of_part = 1.5;
 
+// The scan's mean face over the result's, above which its edges are halved, too.
+constexpr double largest_face = 2;
+
 // How far the result's edges may be from the curves: of the diagonal, and over the scan's noise.
 constexpr double curve_tolerance = 0.00014;
 constexpr double noise_on_curves = 1.5;
@@ -80,14 +83,19 @@ SimplifyResult simplify(const SurfaceMesh& mesh, SurfaceMesh& surface, const Sim
       .least = std::max(curve_tolerance * bounding_box(mesh.vertices).diagonal(), noise_on_curves * features.noise)};
   if (const auto* bound = std::get_if<LargestDeviation>(&options.size))
     tolerance.largest = curves_over_deviation * bound->distance;
-  // Faces of CAD are far larger than the result's; searches for what is near want them alike.
+  // Faces of CAD are far larger than the result's, and so are a scan's where more triangles are asked for than it has;
+  // searches for what is near want them alike.
   SurfaceMesh parted;
-  if (!features.edges.empty()) {
+  const bool has_large_faces =
+      !features.edges.empty() ||
+      (options.method == SimplifyMethod::lattice && !std::holds_alternative<LargestDeviation>(options.size) &&
+       surface_area(mesh) > equilateral_area * edge * edge * largest_face * static_cast<double>(mesh.triangles.size()));
+  if (has_large_faces) {
     parted = mesh;
     std::vector<double> length(mesh.vertices.size(), edge);
     halve_long_edges(parted, length, features.edges, longest_edge_of_part, longest_edge_of_part);
   }
-  const SurfaceMesh& whole = features.edges.empty() ? mesh : parted;
+  const SurfaceMesh& whole = has_large_faces ? parted : mesh;
   PreparedScan scan(whole, std::move(features.edges), tolerance);
   result.faces_before = mesh.triangles.size();
   if (const auto* bound = std::get_if<LargestDeviation>(&options.size)) {
