@@ -17,7 +17,7 @@ constexpr double equilateral_area = 0.43301270189221932;  // of a triangle with 
 
 // Triangles with smaller angles are bad, and walls whose elements have smaller ones. Between two creases less will do:
 // such an element need not be flat.
-constexpr double least_angle_deg = 30, least_across_wall_deg = 25, least_corner_deg = 18;
+constexpr double least_angle_deg = 30, least_across_wall_deg = 25, least_corner_deg = 19;
 // Of the wanted edges around a bad triangle, from one surface to the next: by how bad it is.
 constexpr double least_shortening = 0.75, most_shortening = 0.5;
 constexpr double reach = 1.5;               // around it, over its longest edge
