@@ -23,7 +23,7 @@ constexpr double fewest_faces = 4;
 constexpr double longest_edge_of_part = 1.5;
 
 // The scan's mean face over the result's, above which its edges are halved, too.
-constexpr double largest_face = 2;
+constexpr double largest_face = 0.3;
 
 // How far the result's edges may be from the curves: of the diagonal, and over the scan's noise.
 constexpr double curve_tolerance = 0.00014;
