@@ -25,6 +25,9 @@ constexpr double longest_edge_of_part = 1.5;
 // The scan's mean face over the result's, above which its edges are halved, too.
 constexpr double largest_face = 0.3;
 
+// Where few triangles are asked for, make_shaped_surface may want to make about so many.
+constexpr double triangles_of_small_part = 4000;
+
 // How far the result's edges may be from the curves: of the diagonal, and over the scan's noise.
 constexpr double curve_tolerance = 0.00014;
 constexpr double noise_on_curves = 1.5;
@@ -92,7 +95,10 @@ SimplifyResult simplify(const SurfaceMesh& mesh, SurfaceMesh& surface, const Sim
        surface_area(mesh) > equilateral_area * edge * edge * largest_face * static_cast<double>(mesh.triangles.size()));
   if (has_large_faces) {
     parted = mesh;
-    std::vector<double> length(mesh.vertices.size(), edge);
+    double edge_of_parts = edge;
+    if (options.for_tetrahedra)
+      edge_of_parts = std::min(edge, std::sqrt(surface_area(mesh) / (equilateral_area * triangles_of_small_part)));
+    std::vector<double> length(mesh.vertices.size(), edge_of_parts);
     halve_long_edges(parted, length, features.edges, longest_edge_of_part, longest_edge_of_part);
   }
   const SurfaceMesh& whole = has_large_faces ? parted : mesh;
