@@ -17,7 +17,7 @@ constexpr double equilateral_area = 0.43301270189221932;  // of a triangle with 
 
 // Triangles with smaller angles are bad, and walls whose elements have smaller ones. Between two creases less will do:
 // such an element need not be flat.
-constexpr double least_angle_deg = 30, least_across_wall_deg = 25, least_corner_deg = 18;
+constexpr double least_angle_deg = 30, least_across_wall_deg = 25, least_corner_deg = 19;
 // Of the wanted edges around a bad triangle, from one surface to the next: by how bad it is.
 constexpr double least_shortening = 0.75, most_shortening = 0.5;
 constexpr double reach = 1.5;               // around it, over its longest edge
@@ -30,6 +30,7 @@ constexpr std::size_t many_triangles = 5000;
 // Of the triangles, that are bad.
 constexpr double share_of_many = 0.1;
 // Over those wanted; and what a small part may have in any case.
+constexpr double few_triangles_of_part = 1000;
 constexpr double most_triangles = 3, few_triangles = 8000;
 // A wall is looked for up to this depth, in edges. Its sides face one another within 37 degrees.
 constexpr double deepest_wall = 0.5, opposing = -0.8;
@@ -183,6 +184,7 @@ Candidate make_shaped_surface(PreparedScan& scan, const SizingOptions& sizing, c
   std::vector<double> length;
   Candidate best;
   ShapeDefects best_defects;
+  bool best_is_other_part = false;
   SimplifyResult best_result;
   for (int renewal = 0, in_vain = 0;; ++renewal) {
     SimplifyResult made = result;
@@ -199,14 +201,21 @@ Candidate make_shaped_surface(PreparedScan& scan, const SizingOptions& sizing, c
     const std::size_t triangles = candidate.mesh.triangles.size();
     const bool lattice_failed = !made.fallback_reason.empty();
     const bool lost_creases = !creases.empty() && made.feature_edges_kept == 0;
-    const bool gained = renewal == 0 || defects.sharpest() > best_defects.sharpest() + worth_it_deg;
+    // A small part without its edges is another part.
+    const bool is_other_part = lost_creases && sizing.triangles < few_triangles_of_part;
+    const bool is_best =
+        renewal == 0 || (best_is_other_part == is_other_part ? defects.better_than(best_defects) : best_is_other_part);
+    const bool gained = renewal == 0 || (best_is_other_part && !is_other_part) ||
+                        defects.sharpest() > best_defects.sharpest() + worth_it_deg;
     in_vain = gained ? 0 : in_vain + 1;
-    if (renewal == 0 || defects.better_than(best_defects)) {
+    if (is_best) {
+      best_is_other_part = is_other_part;
       best = std::move(candidate);
       best_defects = defects;
       best_result = std::move(made);
     }
-    if (options.method != SimplifyMethod::lattice || defects.empty() || renewal == most_renewals) break;
+    if (options.method != SimplifyMethod::lattice || (defects.empty() && !is_other_part) || renewal == most_renewals)
+      break;
     if (in_vain > (triangles < many_triangles ? most_in_vain : 0)) break;
 
     if (length.empty()) {
@@ -217,11 +226,11 @@ Candidate make_shaped_surface(PreparedScan& scan, const SizingOptions& sizing, c
       renewed.largest = 100;
     }
     // What cannot be kept but by smaller triangles everywhere is not asked for again where few are bad without it.
-    const bool many_bad = defects.bad.size() > share_of_many * static_cast<double>(triangles);
-    if (lost_creases && !lattice_failed && !many_bad) creases.clear();
+    const bool many_bad = static_cast<double>(defects.bad.size()) > share_of_many * static_cast<double>(triangles);
+    if (lost_creases && !lattice_failed && !many_bad && !is_other_part) creases.clear();
     creases = without_narrow_corners(scan.mesh, creases, defects.sharp_corners);
     scan.keep_creases(creases);
-    if (lattice_failed || (lost_creases && many_bad))
+    if (lattice_failed || (lost_creases && many_bad) || is_other_part)
       for (double& l : length) l *= least_shortening;
     else
       shorten_around(defects.bad, scan.mesh, length);

@@ -22,6 +22,12 @@ constexpr double fewest_faces = 4;
 // Of a scan with creases, over the result's mean edge.
 constexpr double longest_edge_of_part = 1.5;
 
+// The scan's mean face over the result's, above which its edges are halved, too.
+constexpr double largest_face = 0.3;
+
+// Where few triangles are asked for, make_shaped_surface may want to make about so many.
+constexpr double triangles_of_small_part = 4000;
+
 // How far the result's edges may be from the curves: of the diagonal, and over the scan's noise.
 constexpr double curve_tolerance = 0.00014;
 constexpr double noise_on_curves = 1.5;
@@ -86,16 +92,23 @@ SimplifyResult simplify(const SurfaceMesh& mesh, SurfaceMesh& surface, const Sim
                       .value = {},
                       .limit = {},
                       .advice = "--method lattice"});
-  // Faces of CAD are far larger than the result's; searches for what is near want them alike.
-  const bool part = !features.edges.empty() || !options.limits.empty();
+  // Faces of CAD are far larger than the result's, and so are a scan's where more triangles are asked for than it has;
+  // searches for what is near want them alike.
   SurfaceMesh parted;
-  if (part) {
+  const bool has_large_faces =
+      !features.edges.empty() || !options.limits.empty() ||
+      (options.method == SimplifyMethod::lattice && !std::holds_alternative<LargestDeviation>(options.size) &&
+       surface_area(mesh) > equilateral_area * edge * edge * largest_face * static_cast<double>(mesh.triangles.size()));
+  if (has_large_faces) {
     parted = mesh;
-    std::vector<double> length(mesh.vertices.size(), edge);
+    double edge_of_parts = edge;
+    if (options.for_tetrahedra)
+      edge_of_parts = std::min(edge, std::sqrt(surface_area(mesh) / (equilateral_area * triangles_of_small_part)));
+    std::vector<double> length(mesh.vertices.size(), edge_of_parts);
     halve_long_edges(parted, length, features.edges, longest_edge_of_part, longest_edge_of_part);
     refine_within_limits(parted, features.edges, options.limits);
   }
-  const SurfaceMesh& whole = part ? parted : mesh;
+  const SurfaceMesh& whole = has_large_faces ? parted : mesh;
   std::vector<double> longest;
   if (!options.limits.empty()) longest = longest_edges(whole, options.limits, longest_edge_of_part * edge);
   PreparedScan scan(whole, std::move(features.edges), tolerance);

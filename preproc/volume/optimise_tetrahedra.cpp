@@ -25,7 +25,10 @@ constexpr int relocation_steps = 8;
 // New vertices over elements at the start. A sound surface asks for a hundredth; one of needles would have insertion
 // fill it with ever smaller elements for ever smaller gains.
 constexpr double most_insertions = 0.025;
-constexpr std::size_t insertions_at_least = 20;  // on small meshes
+constexpr std::size_t insertions_at_least = 300;  // on small meshes
+// Below this quality, dihedral angles of 24 or 136 degrees, more rounds are worth their time while they gain.
+constexpr double poor = 1.09;
+constexpr int most_rounds = 8;
 
 // What was tried on an element without success since it or a neighbour last changed.
 constexpr std::uint32_t tried_topology = 1, tried_insertion = 2, tried_relocation = 4;
@@ -46,13 +49,15 @@ class Optimisation {
       report(0.15 + 0.15 * round);
     }
     relocation();
-    for (int round = 0; round < options_.insertion_rounds; ++round) {
-      report(0.5 + 0.5 * round / options_.insertion_rounds);
+    double least = result_.worst_after = worst();
+    for (int round = 0; round < options_.insertion_rounds || worth_another(round, least); ++round) {
+      report(0.5 + 0.5 * std::min(round, options_.insertion_rounds) / std::max(1, options_.insertion_rounds));
+      least = result_.worst_after;
       topology(true);
       relocation();
+      result_.worst_after = worst();
     }
     report(1);
-    result_.worst_after = worst();
     return result_;
   }
 
@@ -72,6 +77,11 @@ class Optimisation {
     for (std::uint32_t t = 0; t < complex_.slot_count(); ++t)
       if (complex_.alive(t)) least = std::min(least, complex_.quality(t));
     return least;
+  }
+
+  bool worth_another(int round, double least_before) const {
+    return options_.insertion_rounds > 0 && round < most_rounds && result_.worst_after < poor &&
+           result_.worst_after > least_before * topology_gain;
   }
 
   void report(double fraction) {

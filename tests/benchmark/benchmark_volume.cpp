@@ -3,7 +3,8 @@
 //   benchmark_volume standard HORSE FANDISK   the table of the README: TetGen and Gmsh alone and ours, on the Horse at
 //                                             12,604 triangles, even and adaptive, fandisk, and a thin plate
 //   benchmark_volume table SURFACE...         the same rows for surfaces as they are
-//   benchmark_volume large SURFACE...         ours alone, with the memory
+//   benchmark_volume large FACES SCAN...      TetGen and ours on an even surface of so many triangles made of each scan
+//                                             (0: on the scan as it is), each once, with the memory
 //   benchmark_volume corpus FOLDER            every closed mesh in a folder, repaired and simplified to half its
 //                                             triangles (or with its own): what came out beside what the surface allows
 //
@@ -169,25 +170,47 @@ void standard(const std::filesystem::path& horse, const std::filesystem::path& f
        {settings.begin(), settings.end() - 1});  // the lattice's size has no part in it
 }
 
-// A surface too large for Gmsh's rows to be worth their time.
-void large(const std::filesystem::path& file) {
-  const SurfaceMesh surface = outward(file);
+// Surfaces too large for Gmsh's rows, and for three calls, to be worth their time.
+void large(std::size_t faces, const std::filesystem::path& file) {
+  const double begin = processor_seconds();
+  const SurfaceMesh surface =
+      faces == 0 ? outward(file)
+                 : simplified(read_surface(file), FaceCount{faces}, Sizing::uniform, FeatureOptions{.angle_deg = {}});
+  std::printf("%s: %zu triangles in %.1f s\n\n", file.filename().c_str(), surface.triangles.size(),
+              processor_seconds() - begin);
   const SurfaceBound bound = surface_bound(surface);
+  std::printf(
+      "| | tetrahedra | told before | dihedral angles | surface allows | scaled Jacobian min / mean | surface allows "
+      "| seconds | x | us each | peak MB here, in TetGen's process | bytes each |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+  double tetgen_seconds = 0;
+  const auto row = [&](const char* name, const TetMesh& mesh, std::size_t estimated, double seconds) {
+    const double own = peak_megabytes(RUSAGE_SELF), child = peak_megabytes(RUSAGE_CHILDREN);
+    if (tetgen_seconds == 0) tetgen_seconds = seconds;
+    const TetSummary m = measure_tetrahedra(mesh);
+    const auto each = static_cast<double>(m.tetrahedra);
+    std::printf(
+        "| %s | %zu | %s | %.1f–%.1f° | %.1f° | %.3f / %.3f | %.3f | %.1f | %.2f | %.1f | %.0f, %.0f | %.0f, %.0f |\n",
+        name, m.tetrahedra, estimated > 0 ? std::to_string(estimated).c_str() : "", m.min_dihedral_deg,
+        m.max_dihedral_deg, bound.min_dihedral_deg, m.scaled_jacobian.min, m.scaled_jacobian.mean,
+        bound.scaled_jacobian, seconds, seconds / tetgen_seconds, 1e6 * seconds / each, own, child,
+        own * 1048576 / each, child * 1048576 / each);
+    std::fflush(stdout);
+  };
+  {
+    setenv("GLIBC_TUNABLES", "", 1);
+    const double start = processor_seconds();
+    TetgenOutput tetgen = run_tetgen({"pYQJq1.2/10", surface.vertices, surface.triangles});
+    unsetenv("GLIBC_TUNABLES");
+    const double seconds = processor_seconds() - start;
+    row("TetGen `pYq1.2/10`",
+        fill_regions(std::move(tetgen.points), std::move(tetgen.tetrahedra), surface.triangles,
+                     surface.vertices.size()),
+        0, seconds);
+  }
   const double start = processor_seconds();
   const TetrahedralizeResult result = tetrahedralize(surface);
-  const double seconds = processor_seconds() - start;
-  const double own = peak_megabytes(RUSAGE_SELF), child = peak_megabytes(RUSAGE_CHILDREN);
-  const TetSummary m = measure_tetrahedra(result.mesh);
-  const auto each = static_cast<double>(m.tetrahedra);
-  std::printf(
-      "| surface | triangles | tetrahedra | told before | dihedral angles | surface allows | scaled Jacobian min / "
-      "mean "
-      "| seconds | us each | peak MB here, in TetGen's process | bytes each "
-      "|\n|---|---|---|---|---|---|---|---|---|---|---|\n"
-      "| %s | %zu | %zu | %zu | %.1f–%.1f° | %.1f° | %.3f / %.3f | %.1f | %.1f | %.0f, %.0f | %.0f, %.0f |\n",
-      file.filename().c_str(), surface.triangles.size(), m.tetrahedra, result.estimated_tetrahedra, m.min_dihedral_deg,
-      m.max_dihedral_deg, bound.min_dihedral_deg, m.scaled_jacobian.min, m.scaled_jacobian.mean, seconds,
-      1e6 * seconds / each, own, child, own * 1048576 / each, child * 1048576 / each);
+  row("scan2fea", result.mesh, result.estimated_tetrahedra, processor_seconds() - start);
 }
 
 // Why the worst element is bad: whether the mesher had no choice there.
@@ -285,13 +308,13 @@ int main(int argc, char** argv) {
       scan2fea::benchmark::standard(argv[2], argv[3]);
     else if (mode == "table")
       for (int i = 2; i < argc; ++i) scan2fea::benchmark::table(argv[i]);
-    else if (mode == "large")
-      for (int i = 2; i < argc; ++i) scan2fea::benchmark::large(argv[i]);
+    else if (mode == "large" && argc > 3)
+      for (int i = 3; i < argc; ++i) scan2fea::benchmark::large(std::stoul(argv[2]), argv[i]);
     else if (mode == "corpus")
       scan2fea::benchmark::corpus(argv[2]);
     else
       return std::fprintf(stderr,
-                          "usage: benchmark_volume standard HORSE FANDISK | table SURFACE... | large SURFACE... | "
+                          "usage: benchmark_volume standard HORSE FANDISK | table SURFACE... | large FACES SCAN... | "
                           "corpus FOLDER\n"),
              2;
   } catch (const std::exception& error) {
