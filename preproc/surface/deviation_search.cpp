@@ -33,6 +33,7 @@ struct Found {
   SimplifyResult result;
   double share_beyond = 1;  // of the faces, before local refinement
   double mean_edge_ratio = 0;
+  bool is_largest = false;  // of as many triangles as there may be
 
   bool holds(double distance) const { return result.largest_deviation <= distance; }
   bool is_shapely() const { return mean_edge_ratio <= worst_mean_edge_ratio; }
@@ -88,6 +89,7 @@ Found try_lengths(const std::vector<double>& length, const SimplifyResult& given
   sizing.largest = 100;
   sizing.factors = length;  // only their ratios count: the number of triangles sets the scale
   Found found{.candidate = {}, .result = given};
+  found.is_largest = sizing.triangles >= most_triangles;
   found.candidate = make_surface(scan, sizing, options, effort, found.result, progress);
   const DeviationBound bound = bound_deviation(found.candidate.mesh, scan.mesh, {.limit = distance});
   deviation = scan.by_vertex(local_deviation(found.candidate.mesh, scan.reference(), bound),
@@ -143,10 +145,11 @@ Candidate make_surface_within(PreparedScan& scan, const LargestDeviation& wanted
     const bool failed = !found.result.fallback_reason.empty();
     if (!first && !failed && found.is_shapely() && found.share_beyond <= few_beyond && !found.holds(distance))
       bring_within(found, scan, distance, progress);
-    const bool done = !first && found.holds(distance) && found.is_shapely();
+    const bool done = !first && found.holds(distance) && (found.is_shapely() || found.is_largest);
+    const bool is_in_vain = failed || found.is_largest;
     const double most_growing = most_growing_after(trial, found.mean_edge_ratio);
     if (is_better(found, best, distance)) best = std::move(found);
-    if (done || (failed && failures++ == most_failures)) break;
+    if (done || (is_in_vain && failures++ == most_failures)) break;
     // What was too fine for the first guess need not be for the next, nor for other triangles of about the same size.
     if (first || failed)
       scan.keep_creases(creases);
