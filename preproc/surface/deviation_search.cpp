@@ -151,10 +151,10 @@ Candidate make_surface_within(PreparedScan& scan, const LargestDeviation& wanted
     if (is_better(found, best, distance)) best = std::move(found);
     if (done || (is_in_vain && failures++ == most_failures)) break;
     // What was too fine for the first guess need not be for the next, nor for other triangles of about the same size.
-    if (first || failed)
-      scan.keep_creases(creases);
-    else
+    if (!first && !failed)
       creases = scan.features().sharp;
+    else if (scan.features().sharp != creases)
+      scan.keep_creases(creases);
     if (failed && !first)
       for (double& l : length) l *= after_failure;
     else
