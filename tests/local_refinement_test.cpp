@@ -2,6 +2,7 @@
 
 #include "analytic_meshes.hpp"
 #include "preproc/mesh/error.hpp"
+#include "preproc/surface/feature_net.hpp"
 #include "quality/deviation_bound.hpp"
 #include "quality/self_intersections.hpp"
 #include "quality/validity.hpp"
@@ -101,6 +102,16 @@ TEST(LocalRefinement, GivesTheSameBytesForAnyNumberOfThreads) {
   }
   EXPECT_EQ(one.vertices, several.vertices);
   EXPECT_EQ(one.triangles, several.triangles);
+}
+
+TEST(LocalRefinement, EdgesOnLinesAreSplitHalfWayAlongThem) {
+  const FeatureLine corner{.points = {{0, 0, 0}, {3, 0, 0}, {3, 1, 0}}, .vertices = {}};
+  EXPECT_TRUE(corner.point_at(middle_place(corner, 0, 2)).isApprox(Vec3(2, 0, 0)));
+  EXPECT_TRUE(corner.point_at(middle_place(corner, 1.0 / 3, 1.5)).isApprox(Vec3(2.25, 0, 0)));
+  // The last side of a square, and half of the first.
+  const FeatureLine square{
+      .points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 0}}, .vertices = {}, .closed = true};
+  EXPECT_TRUE(square.point_at(middle_place(square, 3, 0.5)).isApprox(Vec3(0, 0.25, 0)));
 }
 
 TEST(LocalRefinement, RefusesOptionsOutOfRange) {

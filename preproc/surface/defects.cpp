@@ -10,13 +10,15 @@
 namespace scan2fea {
 namespace {
 
-// Whether any scan vertex connected to `start` within `radius` of `centre` has a normal on the side of `normal`.
+// Whether the scan has a normal on the side of `normal` at any vertex that is connected to `start` within `radius` of
+// `centre`, or on any face around these: of a scan with larger triangles than the mesh, there is no other vertex.
 bool scan_agrees(const ReferenceSurface& scan, std::uint32_t start, const Vec3& centre, double radius,
                  const Vec3& normal) {
   std::vector<std::uint32_t> reached{start};
   for (std::size_t k = 0; k < reached.size(); ++k) {
     if (scan.vertex_normals[reached[k]].dot(normal) > 0) return true;
     for (const std::uint32_t corner : scan.stars.corners(reached[k])) {
+      if (scan.face_normals[corner / 3].dot(normal) > 0) return true;
       for (const std::uint32_t v : scan.mesh.triangles[corner / 3]) {
         if ((scan.mesh.vertices[v] - centre).norm() > radius) continue;
         if (std::find(reached.begin(), reached.end(), v) == reached.end()) reached.push_back(v);

@@ -15,10 +15,15 @@ namespace scan2fea {
 namespace {
 
 constexpr int most_trials = 8;
+// Where the lattice gives way it often does so by a few triangles, which others of nearly the same size may not have.
+constexpr int most_failures = 2;
+constexpr double after_failure = 0.96;  // of all edges
 // A closed surface needs four faces.
 constexpr double fewest_faces = 4;
 // Of the faces, that local refinement is left with: more are cheaper mended all at once.
 constexpr double few_beyond = 0.05;
+// And where there is no other way left.
+constexpr double most_beyond = 0.15;
 // Where triangles as large as the deviation allows are too large for the part's edges, smaller ones keep their shape.
 constexpr double worst_mean_edge_ratio = 1.19;
 
@@ -28,6 +33,7 @@ struct Found {
   SimplifyResult result;
   double share_beyond = 1;  // of the faces, before local refinement
   double mean_edge_ratio = 0;
+  bool is_largest = false;  // of as many triangles as there may be
 
   bool holds(double distance) const { return result.largest_deviation <= distance; }
   bool is_shapely() const { return mean_edge_ratio <= worst_mean_edge_ratio; }
@@ -83,6 +89,7 @@ Found try_lengths(const std::vector<double>& length, const SimplifyResult& given
   sizing.largest = 100;
   sizing.factors = length;  // only their ratios count: the number of triangles sets the scale
   Found found{.candidate = {}, .result = given};
+  found.is_largest = sizing.triangles >= most_triangles;
   found.candidate = make_surface(scan, sizing, options, effort, found.result, progress);
   const DeviationBound bound = bound_deviation(found.candidate.mesh, scan.mesh, {.limit = distance});
   deviation = scan.by_vertex(local_deviation(found.candidate.mesh, scan.reference(), bound),
@@ -121,7 +128,7 @@ Candidate make_surface_within(PreparedScan& scan, const LargestDeviation& wanted
                               const Progress& progress) {
   const double distance = wanted.distance;
   const SimplifyResult given = result;
-  const std::vector<FeatureEdge> creases = scan.features().sharp;
+  std::vector<FeatureEdge> creases = scan.features().sharp;
   std::vector<double> length(scan.mesh.vertices.size(), first_edge_over_deviation * distance);
   const auto keep_within_limits = [&] {
     for (std::size_t v = 0; v < longest.size(); ++v) length[v] = std::min(length[v], longest[v]);
@@ -129,25 +136,32 @@ Candidate make_surface_within(PreparedScan& scan, const LargestDeviation& wanted
   keep_within_limits();
   std::vector<double> deviation;
   Found best;
+  int failures = 0;
   for (int trial = 0; trial < most_trials; ++trial) {
     progress("deviation", static_cast<double>(trial) / most_trials);
     const bool first = trial == 0;
     Found found = try_lengths(length, given, scan, distance, most_triangles, options,
                               first ? Effort::low : options.effort, deviation, progress);
-    if (!first && found.is_shapely() && found.share_beyond <= few_beyond && !found.holds(distance))
+    const bool failed = !found.result.fallback_reason.empty();
+    if (!first && !failed && found.is_shapely() && found.share_beyond <= few_beyond && !found.holds(distance))
       bring_within(found, scan, distance, progress);
-    const bool done = !first && found.holds(distance) && found.is_shapely();
-    // Where the lattice gave way, it does so to smaller triangles too.
-    const bool gave_way = !first && !found.result.fallback_reason.empty();
+    const bool done = !first && found.holds(distance) && (found.is_shapely() || found.is_largest);
+    const bool is_in_vain = failed || found.is_largest;
     const double most_growing = most_growing_after(trial, found.mean_edge_ratio);
     if (is_better(found, best, distance)) best = std::move(found);
-    if (done || gave_way) break;
-    // What was too fine for the first guess need not be for the next.
-    if (first && scan.features().sharp != creases) scan.keep_creases(creases);
-    renew(length, deviation, distance, most_growing);
+    if (done || (is_in_vain && failures++ == most_failures)) break;
+    // What was too fine for the first guess need not be for the next, nor for other triangles of about the same size.
+    if (!first && !failed)
+      creases = scan.features().sharp;
+    else if (scan.features().sharp != creases)
+      scan.keep_creases(creases);
+    if (failed && !first)
+      for (double& l : length) l *= after_failure;
+    else
+      renew(length, deviation, distance, most_growing);
     keep_within_limits();
   }
-  if (!best.holds(distance)) bring_within(best, scan, distance, progress);
+  if (!best.holds(distance) && best.share_beyond <= most_beyond) bring_within(best, scan, distance, progress);
   // The deviation that was asked for comes before the tetrahedra.
   Candidate opened = best.candidate;
   if (open_wedges(opened, scan, options)) {

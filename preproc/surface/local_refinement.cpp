@@ -25,8 +25,9 @@ constexpr int most_rings = 3;
 constexpr std::size_t most_vertices_per_face = 6;
 // Of the limit: what the exact volume's shift may take.
 constexpr double reserve = 0.01;
-// Where nothing helps, shape gives way, so often and by so much each time.
-constexpr int most_yielding = 2;
+// Where nothing helps, shape gives way, so often and by so much each time; then all is tried from the start again,
+// since what has changed around gives other ways, until nothing did.
+constexpr int most_yielding = 3;
 constexpr double yielding_deg = 8;
 
 struct Place {
@@ -230,6 +231,7 @@ BoundedRefinementResult refine_within(SurfaceMesh& mesh, FeatureNet& net, const 
   LocalRefinementOptions left = options;
   BoundedRefinementResult result;
   int yielded = 0;
+  bool changed = false;
   for (int round = 0;; ++round) {
     progress("deviation", static_cast<double>(round) / options.rounds);
     const DeviationBound bound = bound_deviation(mesh, scan.mesh, tree, {.limit = goal_limit(options)});
@@ -245,10 +247,13 @@ BoundedRefinementResult refine_within(SurfaceMesh& mesh, FeatureNet& net, const 
     const LocalRefinementResult changes = refine_places(mesh, net, scan, deviation, left);
     result.changes.patches += changes.patches;
     result.changes.inserted += changes.inserted;
+    changed = changed || changes.patches > 0;
     if (changes.patches > 0) continue;
-    if (yielded++ == most_yielding) break;
-    left.least_angle_deg = std::max(0.0, left.least_angle_deg - yielding_deg);
-    left.fidelity_of_diagonal /= 2;
+    if (yielded == most_yielding && !changed) break;
+    if (yielded == most_yielding) changed = false;
+    yielded = (yielded + 1) % (most_yielding + 1);
+    left.least_angle_deg = std::max(0.0, options.least_angle_deg - yielded * yielding_deg);
+    left.fidelity_of_diagonal = options.fidelity_of_diagonal / std::pow(2, yielded);
   }
   return result;
 }

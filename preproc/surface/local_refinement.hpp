@@ -25,7 +25,7 @@ struct LocalRefinementOptions {
   // Of refine_worst: where more places are beyond the limit, only so many of the worst are mended. At least 1.
   std::size_t most_places = std::numeric_limits<std::size_t>::max();
   // Of refine_within, each bounded; at least 1.
-  int rounds = 20;
+  int rounds = 40;
 };
 
 struct LocalRefinementResult {

@@ -64,15 +64,30 @@ std::string describe(const SurfaceDefects& defects) {
          std::to_string(defects.inverted.size()) + " inverted faces remained";
 }
 
+// Sizes of the search for a deviation.
+bool is_within_deviation(const SizingOptions& sizing) {
+  return sizing.sizing == Sizing::uniform && !sizing.factors.empty();
+}
+
+// Of the faces. Where all points are bounded afterwards, a few that oppose a rough scan do not make a surface useless,
+// and there is none without at sizes below the scan's own.
+double most_inverted(const SizingOptions& sizing) {
+  return is_within_deviation(sizing) ? 0.001 : 0;
+}
+
 // Exact volume, then the guard.
-void finish(Candidate& candidate, PreparedScan& scan, const GuardOptions& options, const Progress& progress) {
+void finish(Candidate& candidate, PreparedScan& scan, const SizingOptions& sizing, const GuardOptions& options,
+            const Progress& progress) {
   try {
     GuardOptions guard = options;
     guard.least_angle_deg = least_angle_deg;
     guard.keep_volume = scan.is_closed();
     const GuardResult guarded = guard_surface(candidate.mesh, candidate.net, scan.reference(), guard, progress);
     candidate.crossings_mended = guarded.before.crossings.size();
-    if (guarded.clean()) return;
+    const std::size_t inverted = guarded.after.inverted.size();
+    if (guarded.after.crossings.empty() &&
+        static_cast<double>(inverted) <= most_inverted(sizing) * static_cast<double>(candidate.mesh.triangles.size()))
+      return;
     candidate.failure = describe(guarded.after);
     const auto centre = [&](std::uint32_t f) {
       const auto& [a, b, c] = candidate.mesh.triangles[f];
@@ -100,7 +115,7 @@ Candidate by_lattice(PreparedScan& scan, const SizingOptions& sizing, const FitP
   candidate.net = std::move(lattice.net);
   ShapeFitOptions fit;
   fit.rounds = first_rounds + plan.rounds;
-  if (sizing.sizing == Sizing::uniform && !sizing.factors.empty()) fit.hold_faces_below = 1;
+  if (is_within_deviation(sizing)) fit.hold_faces_below = 1;
   fit.fidelity_of_diagonal = plan.fidelity_of_diagonal;
   fit.fidelity_of_residual = plan.fidelity_of_residual;
   if (scan.has_creases()) {
@@ -117,7 +132,7 @@ Candidate by_lattice(PreparedScan& scan, const SizingOptions& sizing, const FitP
     guard.fidelity_of_diagonal = candidate.fit.fidelity_of_diagonal;
     guard.loosest_fidelity_of_diagonal = 2 * candidate.fit.fidelity_of_diagonal;
   }
-  finish(candidate, scan, guard, progress);
+  finish(candidate, scan, sizing, guard, progress);
   return candidate;
 }
 
@@ -167,10 +182,10 @@ Candidate by_contraction(PreparedScan& scan, const SizingOptions& sizing, const 
     for (const auto& [a, b] : boundary_edges(fitted.mesh))
       fit.constraints[a] = fit.constraints[b] = VertexConstraint::fixed;
   }
-  if (sizing.sizing == Sizing::uniform && !sizing.factors.empty()) fit.hold_faces_below = 1;
+  if (is_within_deviation(sizing)) fit.hold_faces_below = 1;
   optimise_shape_and_fit(fitted.mesh, scan.reference(), fit, progress);
   const std::vector<Vec3> targets = fitted.mesh.vertices;
-  finish(fitted, scan, {}, progress);
+  finish(fitted, scan, sizing, {}, progress);
   if (fitted.failure.empty()) return fitted;
 
   SurfaceMesh near_fit = contracted.mesh;
