@@ -27,7 +27,7 @@ constexpr int most_renewals = 11;
 constexpr int most_in_vain = 3;
 constexpr double worth_it_deg = 0.5;
 constexpr std::size_t many_triangles = 5000;
-constexpr double good_of_many_deg = 20;   // what the tetrahedra's optimisation copes with, where time matters
+constexpr double good_of_many_deg = 17;   // what the tetrahedra's optimisation copes with, where time matters
 constexpr double room_for_places = 1.05;  // over the triangles wanted
 // Of the triangles, that are bad.
 constexpr double share_of_many = 0.1;

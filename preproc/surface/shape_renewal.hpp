@@ -13,7 +13,7 @@ namespace scan2fea {
 // parts). Where two creases meet at less than 19 degrees, the smoother is given up near by. Of the surfaces made the
 // one whose smallest angle is largest is given; small parts (wanted with less than 1,000 triangles) keep edges first. A
 // well shaped first surface costs one pass over its triangles, with three searches each; large ones are renewed only
-// below 20 degrees, as long as each renewal gains. Throws what make_surface throws where not even the first surface can
+// below 17 degrees, as long as each renewal gains. Throws what make_surface throws where not even the first surface can
 // be made.
 Candidate make_shaped_surface(PreparedScan& scan, const SizingOptions& sizing, const SimplifyOptions& options,
                               SimplifyResult& result, const Progress& progress);
