@@ -6,6 +6,7 @@
 #include "preproc/surface/components.hpp"
 #include "quality/deviation_bound.hpp"
 #include "quality/self_intersections.hpp"
+#include "quality/triangle_measures.hpp"
 #include "quality/validity.hpp"
 #include "tests/analytic_meshes.hpp"
 
@@ -203,6 +204,16 @@ TEST(Simplify, ATinyDeviationOfAPartIsMetByItsOwnFacets) {
   options.size = LargestDeviation{.distance = 1e-6};
   simplify(part, options);
   EXPECT_LE(bound_deviation(part, scan, {.limit = 1e-6}).upper(), 1e-6);
+}
+
+TEST(Simplify, MakesMoreTrianglesThanTheScanHas) {
+  SurfaceMesh mesh = analytic::sphere(1, 3);
+  const std::size_t faces = 5 * mesh.triangles.size();
+  const SimplifyResult result = simplify_to(mesh, FaceCount{faces});
+  EXPECT_EQ(result.fallback_reason, "");
+  EXPECT_NEAR(static_cast<double>(mesh.triangles.size()), static_cast<double>(faces),
+              0.01 * static_cast<double>(faces));
+  EXPECT_GE(measure_triangles(mesh).min_angle_deg.min, 35);
 }
 
 TEST(Simplify, KeepsTheCreasesOfAPartOfFewFacets) {

@@ -27,11 +27,13 @@ constexpr int most_renewals = 11;
 constexpr int most_in_vain = 3;
 constexpr double worth_it_deg = 0.5;
 constexpr std::size_t many_triangles = 5000;
+constexpr double good_of_many_deg = 17;   // what the tetrahedra's optimisation copes with, where time matters
+constexpr double room_for_places = 1.05;  // over the triangles wanted
 // Of the triangles, that are bad.
 constexpr double share_of_many = 0.1;
 // Over those wanted; and what a small part may have in any case.
 constexpr double few_triangles_of_part = 1000;
-constexpr double most_triangles = 3, few_triangles = 8000;
+constexpr double most_triangles = 3, few_triangles = 8000, most_triangles_of_small = 40;
 // A wall is looked for up to this depth, in edges. Its sides face one another within 37 degrees.
 constexpr double deepest_wall = 0.5, opposing = -0.8;
 // Cosine of what normals beside a place may differ by for it to have one.
@@ -178,7 +180,8 @@ void shorten_around(const std::vector<BadPlace>& bad, const SurfaceMesh& scan, s
 
 Candidate make_shaped_surface(PreparedScan& scan, const SizingOptions& sizing, const SimplifyOptions& options,
                               SimplifyResult& result, const Progress& progress) {
-  const double most = std::max(most_triangles * sizing.triangles, few_triangles);
+  const double most =
+      std::max(most_triangles * sizing.triangles, std::min(few_triangles, most_triangles_of_small * sizing.triangles));
   std::vector<FeatureEdge> creases = scan.features().sharp;
   SizingOptions renewed = sizing;
   std::vector<double> length;
@@ -216,6 +219,7 @@ Candidate make_shaped_surface(PreparedScan& scan, const SizingOptions& sizing, c
     }
     if (options.method != SimplifyMethod::lattice || (defects.empty() && !is_other_part) || renewal == most_renewals)
       break;
+    if (triangles >= many_triangles && !lattice_failed && defects.sharpest() >= good_of_many_deg) break;
     if (in_vain > (triangles < many_triangles ? most_in_vain : 0)) break;
 
     if (length.empty()) {
@@ -236,6 +240,8 @@ Candidate make_shaped_surface(PreparedScan& scan, const SizingOptions& sizing, c
       shorten_around(defects.bad, scan.mesh, length);
     limit_gradation(scan.mesh, gradation_around_bad * sizing.gradation, length);
     renewed.triangles = predicted_triangles(scan.mesh, {length});
+    // A few places cost the others little.
+    if (renewed.triangles < room_for_places * sizing.triangles) renewed.triangles = sizing.triangles;
     renewed.factors = length;
     if (renewed.triangles > most) break;
   }

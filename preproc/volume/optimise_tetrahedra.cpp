@@ -25,7 +25,7 @@ constexpr int relocation_steps = 8;
 // New vertices over elements at the start. A sound surface asks for a hundredth; one of needles would have insertion
 // fill it with ever smaller elements for ever smaller gains.
 constexpr double most_insertions = 0.025;
-constexpr std::size_t insertions_at_least = 300;  // on small meshes
+constexpr std::size_t insertions_at_least = 40;  // on small meshes
 // Below this quality, dihedral angles of 24 or 136 degrees, more rounds are worth their time while they gain.
 constexpr double poor = 1.09;
 constexpr int most_rounds = 8;

@@ -33,7 +33,7 @@ struct OptimiseResult {
 // Passes: topology, smoothing, topology, smoothing, topology, smoothing, max-min relocation; then, for each round,
 // topology with insertion and max-min relocation. Every move lifts the least quality of what it touches, so the
 // mesh's least quality never falls. At most a fortieth as many vertices are inserted as there are elements, so that
-// these grow by a sixth at most, and 300 on small meshes. The mesh is of first order with positive tetrahedra;
+// these grow by a sixth at most, and 40 on small meshes. The mesh is of first order with positive tetrahedra;
 // `boundary` and its nodes stay, in their order; nodes from `kept` on that lose all their elements vanish.
 // Deterministic, unless the time limit strikes. Throws Cancelled. Some 3 us per element on one thread.
 OptimiseResult optimise_tetrahedra(TetMesh& mesh, std::size_t kept, const OptimiseOptions& options = {},

@@ -16,6 +16,7 @@
 #include "preproc/pipeline.hpp"
 #include "preproc/volume/fill_regions.hpp"
 #include "quality/tetrahedron_measures.hpp"
+#include "quality/triangle_measures.hpp"
 #include "tests/analytic_meshes.hpp"
 #include "tests/benchmark/gmsh_volume_peer.hpp"
 
@@ -213,12 +214,13 @@ void large(std::size_t faces, const std::filesystem::path& file) {
   row("scan2fea", result.mesh, result.estimated_tetrahedra, processor_seconds() - start);
 }
 
-// Why the worst element is bad: whether the mesher had no choice there.
+// Where the worst element is and what it had to work with: surface triangles that are bad themselves, or sides of the
+// body that are nearer to one another than its edges are long.
 std::string worst_place(const PipelineResult& result) {
   const TetMesh& mesh = *result.volume_mesh;
-  std::size_t worst = 0;
+  std::uint32_t worst = 0;
   double least = 180;
-  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+  for (std::uint32_t t = 0; t < mesh.tetrahedra.size(); ++t) {
     const Tetrahedron& c = mesh.tetrahedra[t];
     const double angle =
         measure_tetrahedron(mesh.nodes[c[0]], mesh.nodes[c[1]], mesh.nodes[c[2]], mesh.nodes[c[3]]).min_dihedral_deg;
@@ -227,20 +229,39 @@ std::string worst_place(const PipelineResult& result) {
     worst = t;
   }
   const Tetrahedron& c = mesh.tetrahedra[worst];
-  std::size_t on_surface = 0;
-  double longest = 0, largest_area = 0;
+  std::size_t on_surface = 0, faces = 0;
+  double longest = 0, largest_area = 0, least_angle = 180;
+  Vec3 centre = Vec3::Zero();
   for (std::size_t k = 0; k < 4; ++k) {
     on_surface += c[k] < result.surface.vertices.size();
     const Vec3 &p = mesh.nodes[c[k]], &q = mesh.nodes[c[(k + 1) % 4]], &r = mesh.nodes[c[(k + 2) % 4]];
     longest = std::max({longest, (q - p).norm(), (r - p).norm()});
     largest_area = std::max(largest_area, (q - p).cross(r - p).norm());
+    centre += p / 4;
+  }
+  for (const BoundaryFace& face : mesh.boundary) {
+    if (face.tetrahedron != worst) continue;
+    ++faces;
+    const Triangle t = boundary_triangle(mesh, face);
+    if (const auto shape = measure_triangle(mesh.nodes[t[0]], mesh.nodes[t[1]], mesh.nodes[t[2]]))
+      least_angle = std::min(least_angle, shape->min_angle_deg);
   }
   const Vec3& a = mesh.nodes[c[0]];
   const double volume = (mesh.nodes[c[1]] - a).cross(mesh.nodes[c[2]] - a).dot(mesh.nodes[c[3]] - a);
-  char text[160];
-  std::snprintf(text, sizeof text, "the worst element has %zu nodes on the surface and is %.2f of its edge thick",
-                on_surface, volume / largest_area / longest);
-  return text;
+  char text[240];
+  const int written =
+      std::snprintf(text, sizeof text,
+                    "the worst element, at (%.4g, %.4g, %.4g), has %zu nodes and %zu faces on the surface and is %.2f "
+                    "of its edge thick",
+                    centre.x(), centre.y(), centre.z(), on_surface, faces, volume / largest_area / longest);
+  std::string reason(text, static_cast<std::size_t>(written));
+  if (faces > 0 && least_angle < 25) {
+    std::snprintf(text, sizeof text, "; a triangle there has an angle of %.1f°", least_angle);
+    reason += text;
+  } else if (on_surface == 4) {
+    reason += "; sides of the body are that near to one another there";
+  }
+  return reason;
 }
 
 // Half the triangles, or where no valid surface of that size can be had, the repaired input's own.
