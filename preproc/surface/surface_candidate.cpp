@@ -31,6 +31,10 @@ constexpr double fidelity_of_parts = 0.0003;
 // Of the fit, in which it finds out how near the triangles can come.
 constexpr int first_rounds = 2;
 
+// Of the faces. Where all points are bounded afterwards, a few that oppose a rough scan do not make a surface useless,
+// and there is none without at sizes below the scan's own.
+constexpr double most_inverted_within_deviation = 0.001;
+
 // What an effort buys. Trials differ by a little in the sizing, which lays another lattice: of several, the distances
 // to the scan in the tightest folds differ by a third, so the best of them is worth having where time is no matter.
 struct FitPlan {
@@ -38,7 +42,10 @@ struct FitPlan {
   double fidelity_of_diagonal;  // the dial between shape and fit, at the least
   double fidelity_of_residual;  // and over the RMS distance of the first fit
   int trials;
-  bool lowers_worst;  // see lower_worst
+  bool lowers_worst;              // see lower_worst
+  bool within_deviation = false;  // the result is to be, and its deviation bounded
+
+  double most_inverted() const { return within_deviation ? most_inverted_within_deviation : 0; }
 };
 
 FitPlan plan_of(Effort effort) {
@@ -64,19 +71,8 @@ std::string describe(const SurfaceDefects& defects) {
          std::to_string(defects.inverted.size()) + " inverted faces remained";
 }
 
-// Sizes of the search for a deviation.
-bool is_within_deviation(const SizingOptions& sizing) {
-  return sizing.sizing == Sizing::uniform && !sizing.factors.empty();
-}
-
-// Of the faces. Where all points are bounded afterwards, a few that oppose a rough scan do not make a surface useless,
-// and there is none without at sizes below the scan's own.
-double most_inverted(const SizingOptions& sizing) {
-  return is_within_deviation(sizing) ? 0.001 : 0;
-}
-
 // Exact volume, then the guard.
-void finish(Candidate& candidate, PreparedScan& scan, const SizingOptions& sizing, const GuardOptions& options,
+void finish(Candidate& candidate, PreparedScan& scan, double most_inverted, const GuardOptions& options,
             const Progress& progress) {
   try {
     GuardOptions guard = options;
@@ -86,7 +82,7 @@ void finish(Candidate& candidate, PreparedScan& scan, const SizingOptions& sizin
     candidate.crossings_mended = guarded.before.crossings.size();
     const std::size_t inverted = guarded.after.inverted.size();
     if (guarded.after.crossings.empty() &&
-        static_cast<double>(inverted) <= most_inverted(sizing) * static_cast<double>(candidate.mesh.triangles.size()))
+        static_cast<double>(inverted) <= most_inverted * static_cast<double>(candidate.mesh.triangles.size()))
       return;
     candidate.failure = describe(guarded.after);
     const auto centre = [&](std::uint32_t f) {
@@ -115,7 +111,7 @@ Candidate by_lattice(PreparedScan& scan, const SizingOptions& sizing, const FitP
   candidate.net = std::move(lattice.net);
   ShapeFitOptions fit;
   fit.rounds = first_rounds + plan.rounds;
-  if (is_within_deviation(sizing)) fit.hold_faces_below = 1;
+  if (plan.within_deviation) fit.hold_faces_below = 1;
   fit.fidelity_of_diagonal = plan.fidelity_of_diagonal;
   fit.fidelity_of_residual = plan.fidelity_of_residual;
   if (scan.has_creases()) {
@@ -132,12 +128,12 @@ Candidate by_lattice(PreparedScan& scan, const SizingOptions& sizing, const FitP
     guard.fidelity_of_diagonal = candidate.fit.fidelity_of_diagonal;
     guard.loosest_fidelity_of_diagonal = 2 * candidate.fit.fidelity_of_diagonal;
   }
-  finish(candidate, scan, sizing, guard, progress);
+  finish(candidate, scan, plan.most_inverted(), guard, progress);
   return candidate;
 }
 
-Candidate best_by_lattice(PreparedScan& scan, const SizingOptions& sizing, Effort effort, const Progress& progress) {
-  const FitPlan plan = plan_of(effort);
+Candidate best_by_lattice(PreparedScan& scan, const SizingOptions& sizing, const FitPlan& plan,
+                          const Progress& progress) {
   if (plan.trials == 1) return by_lattice(scan, sizing, plan, 1, progress);
   constexpr double strength_step = 0.03;
   Candidate best, failed;
@@ -162,7 +158,8 @@ Candidate best_by_lattice(PreparedScan& scan, const SizingOptions& sizing, Effor
 // Where the lattice gives way: contractions towards the same sizing, none of which makes faces meet, then the same fit.
 // Where the fit ends in crossings that the guard cannot mend, vertices go only as far towards it as nothing meets, and
 // where the shape needs more triangles than were asked for, it keeps them: this way always ends in a sound surface.
-Candidate by_contraction(PreparedScan& scan, const SizingOptions& sizing, const Progress& progress) {
+Candidate by_contraction(PreparedScan& scan, const SizingOptions& sizing, const FitPlan& plan,
+                         const Progress& progress) {
   // Long triangles, as CAD makes them, are no start for even ones.
   RefinedScan refined = refine_scan(scan.mesh, compute_sizing_field(scan.mesh, sizing), longest_edge_to_contract);
   Candidate contracted;
@@ -182,10 +179,10 @@ Candidate by_contraction(PreparedScan& scan, const SizingOptions& sizing, const 
     for (const auto& [a, b] : boundary_edges(fitted.mesh))
       fit.constraints[a] = fit.constraints[b] = VertexConstraint::fixed;
   }
-  if (is_within_deviation(sizing)) fit.hold_faces_below = 1;
+  if (plan.within_deviation) fit.hold_faces_below = 1;
   optimise_shape_and_fit(fitted.mesh, scan.reference(), fit, progress);
   const std::vector<Vec3> targets = fitted.mesh.vertices;
-  finish(fitted, scan, sizing, {}, progress);
+  finish(fitted, scan, plan.most_inverted(), {}, progress);
   if (fitted.failure.empty()) return fitted;
 
   SurfaceMesh near_fit = contracted.mesh;
@@ -227,7 +224,7 @@ bool drop_short_creases(PreparedScan& scan, const Candidate& failed) {
 
 // The lattice with the creases; where triangles of the wanted size are too large for them, without the short ones, with
 // smaller triangles, or without any.
-Candidate by_lattice_with_creases(PreparedScan& scan, SizingOptions sizing, Effort effort, SimplifyResult& result,
+Candidate by_lattice_with_creases(PreparedScan& scan, SizingOptions sizing, const FitPlan& plan, SimplifyResult& result,
                                   const Progress& progress) {
   constexpr int most_trials = 4;
   constexpr int most_larger = 1;  // times
@@ -237,7 +234,7 @@ Candidate by_lattice_with_creases(PreparedScan& scan, SizingOptions sizing, Effo
   const std::string too_large = "triangles of the wanted size are too large for the creases: ";
   int larger = 0;
   for (int trial = 0; trial < most_trials && scan.has_creases(); ++trial) {
-    Candidate candidate = best_by_lattice(scan, sizing, effort, progress);
+    Candidate candidate = best_by_lattice(scan, sizing, plan, progress);
     if (candidate.failure.empty()) {
       const std::size_t kept = scan.features().sharp.size();
       if (kept < creases)
@@ -252,7 +249,7 @@ Candidate by_lattice_with_creases(PreparedScan& scan, SizingOptions sizing, Effo
   result.feature_remark = too_large + "none is kept";
   scan.keep_creases({});
   sizing.triangles = wanted;
-  return best_by_lattice(scan, sizing, effort, progress);
+  return best_by_lattice(scan, sizing, plan, progress);
 }
 
 }  // namespace
@@ -261,14 +258,16 @@ Candidate make_surface(PreparedScan& scan, const SizingOptions& sizing, const Si
                        SimplifyResult& result, const Progress& progress) {
   result.method = options.method;
   result.fallback_reason.clear();
+  FitPlan plan = plan_of(effort);
+  plan.within_deviation = std::holds_alternative<LargestDeviation>(options.size);
   Candidate candidate = options.method == SimplifyMethod::collapse
                             ? by_collapse(scan, sizing.triangles, options, progress)
-                        : scan.has_creases() ? by_lattice_with_creases(scan, sizing, effort, result, progress)
-                                             : best_by_lattice(scan, sizing, effort, progress);
+                        : scan.has_creases() ? by_lattice_with_creases(scan, sizing, plan, result, progress)
+                                             : best_by_lattice(scan, sizing, plan, progress);
   if (!candidate.failure.empty() && options.method == SimplifyMethod::lattice) {
     result.method = SimplifyMethod::collapse;
     result.fallback_reason = candidate.failure;
-    candidate = by_contraction(scan, sizing, progress);
+    candidate = by_contraction(scan, sizing, plan, progress);
   }
   if (!candidate.failure.empty())
     throw NotMeshable({.what = "no valid surface of this size: " + candidate.failure,
