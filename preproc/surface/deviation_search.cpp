@@ -82,12 +82,9 @@ Found try_lengths(const std::vector<double>& length, const SimplifyResult& given
                   double most_triangles, const SimplifyOptions& options, Effort effort, std::vector<double>& deviation,
                   const Progress& progress) {
   SizingOptions sizing;
-  sizing.sizing = Sizing::uniform;
   sizing.gradation = options.gradation;
-  sizing.triangles = std::clamp(predicted_triangles(scan.mesh, {length}), fewest_faces, most_triangles);
-  sizing.smallest = 0.01;
-  sizing.largest = 100;
-  sizing.factors = length;  // only their ratios count: the number of triangles sets the scale
+  ask_for_lengths(scan.mesh, length, sizing);
+  sizing.triangles = std::clamp(sizing.triangles, fewest_faces, most_triangles);
   Found found{.candidate = {}, .result = given};
   found.is_largest = sizing.triangles >= most_triangles;
   found.candidate = make_surface(scan, sizing, options, effort, found.result, progress);

@@ -222,13 +222,9 @@ Candidate make_shaped_surface(PreparedScan& scan, const SizingOptions& sizing, c
     if (triangles >= many_triangles && !lattice_failed && defects.sharpest() >= good_of_many_deg) break;
     if (in_vain > (triangles < many_triangles ? most_in_vain : 0)) break;
 
-    if (length.empty()) {
+    if (length.empty())
       length =
           compute_sizing_field(scan.mesh, sizing, scan.has_features() ? &scan.features().cut : nullptr).edge_length;
-      renewed.sizing = Sizing::uniform;  // but for the factors
-      renewed.smallest = 0.01;
-      renewed.largest = 100;
-    }
     // What cannot be kept but by smaller triangles everywhere is not asked for again where few are bad without it.
     const bool many_bad = static_cast<double>(defects.bad.size()) > share_of_many * static_cast<double>(triangles);
     if (lost_creases && !lattice_failed && !many_bad && !is_other_part) creases.clear();
@@ -239,10 +235,9 @@ Candidate make_shaped_surface(PreparedScan& scan, const SizingOptions& sizing, c
     else
       shorten_around(defects.bad, scan.mesh, length);
     limit_gradation(scan.mesh, gradation_around_bad * sizing.gradation, length);
-    renewed.triangles = predicted_triangles(scan.mesh, {length});
+    ask_for_lengths(scan.mesh, length, renewed);
     // A few places cost the others little.
     if (renewed.triangles < room_for_places * sizing.triangles) renewed.triangles = sizing.triangles;
-    renewed.factors = length;
     if (renewed.triangles > most) break;
   }
   result = std::move(best_result);
