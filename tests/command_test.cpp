@@ -89,6 +89,23 @@ TEST_F(Command, AVolumeNeedsItsHolesClosed) {
   EXPECT_THAT(last_line_of(result.standard_error), HasSubstr("closed"));
 }
 
+TEST_F(Command, TakesSizesOfSeveralPlacesFromFlagsAndFiles) {
+  // At either end of a bar: before and behind the name of the scan, and in a row in the file.
+  write_surface(analytic::box({60, 10, 10}, 2), path("bar.ply"));
+  write_text(path("sizes.toml"), "size-ball = [0, 5, 5, 8, 1, 60, 5, 5, 8, 1]\n");
+  const std::string wanted = "' -o '" + path("out.ply") + "' --edge-length 5 --force ";
+  const auto faces = [&](const std::string& before, const std::string& after) {
+    const auto result = run_command("surface " + before + " '" + path("bar.ply") + wanted + after);
+    EXPECT_EQ(result.exit_code, 0) << result.standard_error;
+    return read_surface(path("out.ply")).triangles.size();
+  };
+  const std::size_t none = faces("", ""), one = faces("--size-ball 0 5 5 8 1", "");
+  const std::size_t both = faces("--size-ball 0 5 5 8 1", "--size-ball 60 5 5 8 1");
+  EXPECT_GT(one, 1.5 * none);
+  EXPECT_GT(both, 1.3 * one);
+  EXPECT_EQ(faces("", "--config '" + path("sizes.toml") + "'"), both);
+}
+
 TEST_F(Command, TruncatedBinaryStlIsUnreadable) {
   write_surface(analytic::sphere(1, 2), path("whole.stl"));
   const std::string whole = contents(path("whole.stl"));
