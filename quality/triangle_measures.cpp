@@ -53,6 +53,10 @@ std::optional<TriangleShape> measure_triangle(const Vec3& a, const Vec3& b, cons
   return shape;
 }
 
+double interior_angle(const Vec3& first_normal, const Vec3& second_normal, const Vec3& along) {
+  return std::numbers::pi - std::atan2(first_normal.cross(second_normal).dot(along), first_normal.dot(second_normal));
+}
+
 TriangleSummary measure_triangles(const SurfaceMesh& mesh) {
   std::vector<std::optional<TriangleShape>> shapes(mesh.triangles.size());
   tbb::parallel_for(std::size_t{0}, shapes.size(), [&](std::size_t i) {

@@ -25,6 +25,10 @@ struct TriangleShape {
 // Nothing for a triangle of zero area.
 std::optional<TriangleShape> measure_triangle(const Vec3& a, const Vec3& b, const Vec3& c);
 
+// The angle between two triangles on the side that their normals point away from, radians, (0, 2 pi): that of the body,
+// if they face outwards. `along`: unit, the edge that they share, as the first one turns; the normals have any length.
+double interior_angle(const Vec3& first_normal, const Vec3& second_normal, const Vec3& along);
+
 struct TriangleSummary {
   std::size_t measured = 0;    // triangles in the figures below; where it is 0, so are they
   std::size_t degenerate = 0;  // triangles of zero area

@@ -1,7 +1,7 @@
 // scan2fea: from a scanned surface to a finite-element mesh.
 #include "preproc/command/configuration.hpp"
-#include "preproc/command/huge_pages.hpp"
 #include "preproc/command/progress_display.hpp"
+#include "preproc/command/restart.hpp"
 #include "preproc/command/sub_commands.hpp"
 #include "preproc/mesh/error.hpp"
 

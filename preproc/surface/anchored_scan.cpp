@@ -13,7 +13,6 @@ namespace {
 
 // Over the wanted edge length: with features halved to this, each sample has vertices of its own beside it.
 constexpr double longest_feature_edge = 0.56;
-constexpr double equilateral_area = 0.43301270189221932;  // sqrt(3)/4, of edge length 1
 // How far chords may be from a curve grows with the fourth power of the mean edge, from the given tolerance on edges of
 // a hundredth of the diagonal, up to a part of the edge: on coarse meshes, samples as dense as a fixed tolerance asks
 // for would force lengths on the surface that change faster than a lattice can follow.
@@ -259,7 +258,7 @@ AnchoredScan anchor_scan(const FeatureScan& scan, const SizingOptions& options, 
     halve_long_edges(welded.mesh, welded.edge_length, welded.features, longest_scan_edge, longest_feature_edge);
   };
   refine();
-  const double mean_edge = std::sqrt(surface_area(scan.scan) / (equilateral_area * wanted));
+  const double mean_edge = equilateral_edge(surface_area(scan.scan), wanted);
   const double diagonal = bounding_box(scan.scan.vertices).diagonal();
   const double tolerance = std::min(
       scan.tolerance.largest,

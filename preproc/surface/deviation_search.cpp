@@ -18,8 +18,6 @@ constexpr int most_trials = 8;
 // Where the lattice gives way it often does so by a few triangles, which others of nearly the same size may not have.
 constexpr int most_failures = 2;
 constexpr double after_failure = 0.96;  // of all edges
-// A closed surface needs four faces.
-constexpr double fewest_faces = 4;
 // Of the faces, that local refinement is left with: more are cheaper mended all at once.
 constexpr double few_beyond = 0.05;
 // And where there is no other way left.

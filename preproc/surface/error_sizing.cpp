@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace scan2fea {
 namespace {
@@ -42,7 +41,7 @@ std::vector<double> error_factors(const SurfaceMesh& mesh, const ReferenceSurfac
   const std::vector<Triangle> neighbours = face_neighbours(mesh, stars);
   const std::vector<Vec3> normals = face_normals(mesh);
   const WalkableMesh on{mesh, stars, neighbours, normals};
-  const double edge = std::sqrt(4 / std::numbers::sqrt3 * scan.area / static_cast<double>(mesh.triangles.size()));
+  const double edge = scan.mean_edge(mesh.triangles.size());
   const std::vector<std::uint32_t> nearest = nearest_vertices(scan.mesh.vertices, scan.vertex_normals, mesh, edge);
   std::vector<Location> location(scan.mesh.vertices.size());
   tbb::parallel_for(Range(0, location.size(), 1024), [&](const Range& range) {

@@ -3,6 +3,7 @@
 #include "preproc/surface/adjacency.hpp"
 #include "preproc/surface/components.hpp"
 #include "preproc/surface/cut_surface.hpp"
+#include "preproc/surface/sizing_field.hpp"
 #include "preproc/surface/union_find.hpp"
 
 #include <algorithm>
@@ -14,7 +15,6 @@
 namespace scan2fea {
 namespace {
 
-constexpr double equilateral_area = 0.43301270189221932;  // sqrt(3)/4, of edge length 1
 // Each joins patches with neighbours; a nest of small ones takes several.
 constexpr int most_rounds = 20;
 

@@ -15,7 +15,6 @@
 namespace scan2fea {
 namespace {
 
-constexpr double equilateral_area = 0.43301270189221932;  // sqrt(3)/4, of edge length 1
 // A little more than wanted, since collapses of what is too much disturb the lattice less than splits. Beside creases
 // the count is known less well, and splits do more harm: a vertex of four small faces may rise to a spike.
 constexpr double surplus = 1.01;

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <string>
 
 namespace scan2fea {
@@ -50,10 +49,6 @@ void check(const LocalRefinementOptions& options) {
 // What is worked towards.
 double goal_limit(const LocalRefinementOptions& options) {
   return (1 - reserve) * options.limit;
-}
-
-double mean_edge(const SurfaceMesh& mesh, const ReferenceSurface& scan) {
-  return std::sqrt(4 / std::numbers::sqrt3 * scan.area / static_cast<double>(mesh.triangles.size()));
 }
 
 // Points of the scan that are too far from the surface.
@@ -205,7 +200,7 @@ LocalRefinementResult refine_worst(SurfaceMesh& mesh, const ReferenceSurface& sc
                                    const LocalRefinementOptions& options, const Progress& progress) {
   check(options);
   progress("local refinement", 0);
-  attribute(far_vertices(mesh, scan, options.limit), mesh, mean_edge(mesh, scan), deviation);
+  attribute(far_vertices(mesh, scan, options.limit), mesh, scan.mean_edge(mesh.triangles.size()), deviation);
   LocalRefinementOptions used = options;
   if (options.most_places < deviation.size()) {
     std::vector<double> sorted = deviation;
@@ -242,7 +237,7 @@ BoundedRefinementResult refine_within(SurfaceMesh& mesh, FeatureNet& net, const 
       if (bound.to_mesh.upper[f] > goal_limit(options))
         far.add(bound.to_mesh.farthest[f], scan.face_normals[f], bound.to_mesh.upper[f]);
     std::vector<double> deviation = bound.to_reference.upper;
-    attribute(far, mesh, mean_edge(mesh, scan), deviation);
+    attribute(far, mesh, scan.mean_edge(mesh.triangles.size()), deviation);
     left.most_vertices = options.most_vertices - std::min(options.most_vertices, result.changes.inserted);
     const LocalRefinementResult changes = refine_places(mesh, net, scan, deviation, left);
     result.changes.patches += changes.patches;

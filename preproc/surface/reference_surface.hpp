@@ -5,6 +5,9 @@
 #include "preproc/surface/adjacency.hpp"
 #include "preproc/surface/feature_scan.hpp"
 
+#include <cmath>
+#include <cstddef>
+#include <numbers>
 #include <vector>
 
 namespace scan2fea {
@@ -26,6 +29,11 @@ struct ReferenceSurface {
   std::vector<std::uint32_t> patch_of_vertex;
   double diagonal = 0;  // of the bounding box
   double area = 0;
+
+  // Of a result with so many triangles.
+  double mean_edge(std::size_t triangles) const {
+    return std::sqrt(4 / std::numbers::sqrt3 * area / static_cast<double>(triangles));
+  }
 
  private:
   ReferenceSurface(const SurfaceMesh& cut, const SurfaceMesh& scan);

@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <span>
 #include <string>
@@ -101,7 +100,7 @@ class Fitter {
         stars_(mesh),
         neighbours_(face_neighbours(mesh, stars_)),
         colours_(colour_vertices(mesh, stars_)),
-        mean_edge_(std::sqrt(4 / std::numbers::sqrt3 * scan.area / static_cast<double>(mesh.triangles.size()))),
+        mean_edge_(scan.mean_edge(mesh.triangles.size())),
         forward_(
             sample_surface(scan, longest_scan_edge * mean_edge_,
                            (scan.patch_of_vertex.empty() ? most_samples_per_face : most_samples_per_face_of_parts) *

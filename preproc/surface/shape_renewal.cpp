@@ -3,6 +3,7 @@
 #include "preproc/mesh/error.hpp"
 #include "preproc/surface/adjacency.hpp"
 #include "preproc/surface/feature_selection.hpp"
+#include "quality/triangle_measures.hpp"
 #include "quality/triangle_tree.hpp"
 
 #include <algorithm>
@@ -13,7 +14,6 @@ namespace scan2fea {
 namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
-constexpr double equilateral_area = 0.43301270189221932;  // of a triangle with edges of length 1
 
 // Triangles with smaller angles are bad, and walls whose elements have smaller ones. Between two creases less will do:
 // such an element need not be flat.
@@ -116,7 +116,7 @@ class ShapeCheck {
     const Vec3 n = area_vector(mesh_, t), m = area_vector(mesh_, mesh_.triangles[g]);
     if (n.dot(m) > 0) return 180;
     const Vec3 along = (mesh_.vertices[b] - mesh_.vertices[a]).normalized();
-    const double half = (std::numbers::pi - std::atan2(n.cross(m).dot(along), n.dot(m))) / 2 * degrees;
+    const double half = interior_angle(n, m, along) / 2 * degrees;
     return half < least_angle_deg && is_crease(a, b) ? 180 : half;
   }
 
@@ -143,7 +143,7 @@ class ShapeCheck {
   double wall_angle(std::uint32_t f) const {
     const Triangle& t = mesh_.triangles[f];
     const Vec3 normal = area_vector(mesh_, t);
-    const double edge = std::sqrt(normal.norm() / (2 * equilateral_area));
+    const double edge = equilateral_edge(normal.norm() / 2, 1);
     const auto& p = mesh_.vertices;
     double least = wall_angle((p[t[0]] + p[t[1]] + p[t[2]]) / 3, normal.normalized(), edge, f);
     for (std::size_t k = 0; k < 3; ++k) {
@@ -222,9 +222,7 @@ Candidate make_shaped_surface(PreparedScan& scan, const SizingOptions& sizing, c
     if (triangles >= many_triangles && !lattice_failed && defects.sharpest() >= good_of_many_deg) break;
     if (in_vain > (triangles < many_triangles ? most_in_vain : 0)) break;
 
-    if (length.empty())
-      length =
-          compute_sizing_field(scan.mesh, sizing, scan.has_features() ? &scan.features().cut : nullptr).edge_length;
+    if (length.empty()) length = scan.wanted_lengths(sizing);
     // What cannot be kept but by smaller triangles everywhere is not asked for again where few are bad without it.
     const bool many_bad = static_cast<double>(defects.bad.size()) > share_of_many * static_cast<double>(triangles);
     if (lost_creases && !lattice_failed && !many_bad && !is_other_part) creases.clear();

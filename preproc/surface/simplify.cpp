@@ -16,10 +16,6 @@
 namespace scan2fea {
 namespace {
 
-constexpr double equilateral_area = 0.43301270189221932;  // of a triangle with edges of length 1
-// A closed surface needs four faces; fewer than this and no shape is left of anything.
-constexpr double fewest_faces = 4;
-
 // Of a scan with creases, over the result's mean edge.
 constexpr double longest_edge_of_part = 1.5;
 
@@ -63,10 +59,10 @@ double wanted_faces(const TargetSize& size, const SurfaceMesh& scan) {
 double typical_edge(const TargetSize& size, const SurfaceMesh& scan) {
   if (const auto* bound = std::get_if<LargestDeviation>(&size)) {
     require_positive(bound->distance, "the deviation");
-    const double shortest = std::sqrt(surface_area(scan) / (equilateral_area * most_triangles_of(scan)));
+    const double shortest = equilateral_edge(surface_area(scan), most_triangles_of(scan));
     return std::max(first_edge_over_deviation * bound->distance, shortest);
   }
-  return std::sqrt(surface_area(scan) / (equilateral_area * std::max(wanted_faces(size, scan), fewest_faces)));
+  return equilateral_edge(surface_area(scan), std::max(wanted_faces(size, scan), fewest_faces));
 }
 
 // Those that the result is to keep; what was found is told.
@@ -100,7 +96,7 @@ std::optional<SurfaceMesh> with_smaller_faces(const SurfaceMesh& mesh, const Sim
       options.method == SimplifyMethod::lattice && !std::holds_alternative<LargestDeviation>(options.size) &&
       area > equilateral_area * edge * edge * largest_face * static_cast<double>(mesh.triangles.size());
   if (features.empty() && options.limits.empty() && !few_faces) return {};
-  const double finest = options.for_tetrahedra ? std::sqrt(area / (equilateral_area * triangles_of_small_part)) : edge;
+  const double finest = options.for_tetrahedra ? equilateral_edge(area, triangles_of_small_part) : edge;
   SurfaceMesh parted = mesh;
   std::vector<double> length(mesh.vertices.size(), std::min(edge, finest));
   halve_long_edges(parted, length, features, longest_edge_of_part, longest_edge_of_part);
@@ -113,9 +109,8 @@ void keep_within(const PreparedScan& scan, const std::vector<double>& longest, c
                  SizingOptions& sizing, std::vector<double>& length, SimplifyResult& result) {
   const double wanted = sizing.triangles;
   const bool keeps_count = !std::holds_alternative<MeanEdgeLength>(options.size);
-  length = compute_sizing_field(scan.mesh, sizing, scan.has_features() ? &scan.features().cut : nullptr).edge_length;
-  length =
-      within_limits(scan.mesh, length, longest, options.gradation, keeps_count ? std::optional(wanted) : std::nullopt);
+  length = within_limits(scan.mesh, scan.wanted_lengths(sizing), longest, options.gradation,
+                         keeps_count ? std::optional(wanted) : std::nullopt);
   ask_for_lengths(scan.mesh, length, sizing);
   if (keeps_count && sizing.triangles > 1.01 * wanted)
     result.size_remark = "boxes, balls and elements across walls need about " +

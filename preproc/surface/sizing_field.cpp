@@ -16,8 +16,6 @@
 namespace scan2fea {
 namespace {
 
-constexpr double equilateral_area = 0.43301270189221932;  // sqrt(3)/4, of edge length 1
-
 // Radii above so many edge lengths count as flat.
 constexpr double flat_radius = 20;
 
@@ -246,10 +244,10 @@ SizingField compute_sizing_field(const SurfaceMesh& mesh, const SizingOptions& o
                         .limit = "above 0",
                         .advice = "check the file and its units"});
   }
-  const double uniform_length = std::sqrt(scan.area / (equilateral_area * options.triangles));
+  const double uniform_length = equilateral_edge(scan.area, options.triangles);
   // Mean edge of the scan if its triangles were equilateral. Averaging over k rings reaches sqrt(k) edges: the number
   // of sweeps that is one unit of width where the scan has about eight triangles for one of the result.
-  const double scan_length = std::sqrt(scan.area / (equilateral_area * static_cast<double>(mesh.triangles.size())));
+  const double scan_length = equilateral_edge(scan.area, static_cast<double>(mesh.triangles.size()));
   const double density = uniform_length / scan_length;
   const int sweeps_factor = static_cast<int>(std::clamp(std::lround(density * density / 8), 1L, 3L));
 

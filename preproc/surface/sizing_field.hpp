@@ -4,10 +4,19 @@
 #include "preproc/mesh/surface_mesh.hpp"
 #include "preproc/surface/cut_surface.hpp"
 
+#include <cmath>
 #include <span>
 #include <vector>
 
 namespace scan2fea {
+
+// sqrt(3)/4: of a triangle with edges of length 1.
+inline constexpr double equilateral_area = 0.43301270189221932;
+
+// Of so many equilateral triangles that have this area together.
+inline double equilateral_edge(double area, double triangles) {
+  return std::sqrt(area / (equilateral_area * triangles));
+}
 
 enum class Sizing {
   uniform,    // one edge length for all

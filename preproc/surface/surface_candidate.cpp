@@ -17,7 +17,6 @@
 namespace scan2fea {
 namespace {
 
-constexpr double equilateral_area = 0.43301270189221932;  // of a triangle with edges of length 1
 // Over the wanted edge length.
 constexpr double longest_edge_to_contract = 1;
 
@@ -212,8 +211,7 @@ Candidate by_collapse(PreparedScan& scan, double faces, const SimplifyOptions& o
 bool drop_short_creases(PreparedScan& scan, const Candidate& failed) {
   constexpr double longest = 0.5;  // of the diagonal: the folds of a scan, not the edges of a part
   constexpr double reach = 2;      // mean edges
-  const double edge =
-      std::sqrt(surface_area(failed.mesh) / (equilateral_area * static_cast<double>(failed.mesh.triangles.size())));
+  const double edge = equilateral_edge(surface_area(failed.mesh), static_cast<double>(failed.mesh.triangles.size()));
   std::vector<FeatureEdge> left =
       without_short_creases_near(scan.mesh, scan.features().sharp, failed.failed_at, reach * edge,
                                  longest * bounding_box(scan.mesh.vertices).diagonal());

@@ -14,6 +14,9 @@
 
 namespace scan2fea {
 
+// A closed surface needs four faces; fewer than this and no shape is left of anything.
+inline constexpr double fewest_faces = 4;
+
 // The scan, and what the stages after the lattice ask of it: made when the first of them does, since beside the graph
 // of the fields it would be the peak of the memory.
 class PreparedScan {
@@ -35,6 +38,11 @@ class PreparedScan {
   bool has_features() const { return !features_->empty(); }  // creases or borders
   bool has_creases() const { return !features_->sharp.empty(); }
   bool is_closed() const { return features_->border.empty(); }
+
+  // Edge lengths that the sizing asks for, per vertex.
+  std::vector<double> wanted_lengths(const SizingOptions& sizing) const {
+    return compute_sizing_field(mesh, sizing, has_features() ? &features_->cut : nullptr).edge_length;
+  }
 
   // From here on there are only these.
   void keep_creases(std::vector<FeatureEdge> sharp) {

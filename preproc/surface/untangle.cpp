@@ -8,7 +8,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <span>
 
 namespace scan2fea {
@@ -36,10 +35,6 @@ Vec3 centroid_of_link(const SurfaceMesh& mesh, std::span<const std::uint32_t> co
 
 bool share_a_vertex(const Triangle& a, const Triangle& b) {
   return std::any_of(a.begin(), a.end(), [&](std::uint32_t v) { return std::find(b.begin(), b.end(), v) != b.end(); });
-}
-
-double mean_edge_of(const ReferenceSurface& scan, const SurfaceMesh& mesh) {
-  return std::sqrt(4 / std::numbers::sqrt3 * scan.area / static_cast<double>(mesh.triangles.size()));
 }
 
 }  // namespace
@@ -133,7 +128,7 @@ bool push_apart(SurfaceMesh& mesh, const ReferenceSurface& scan, const std::vect
   // Beyond this the two normals do not tell sheets that face one another.
   constexpr double least_difference = 0.5;
   constexpr int most_steps = 16;
-  const double step = mean_edge_of(scan, mesh) / 64;
+  const double step = scan.mean_edge(mesh.triangles.size()) / 64;
   std::vector<FacePair> pairs = crossings;
   for (int k = 0; k < most_steps; ++k) {
     std::erase_if(pairs,

@@ -7,6 +7,7 @@
 #include "preproc/surface/union_find.hpp"
 #include "preproc/surface/untangle.hpp"
 #include "quality/self_intersections.hpp"
+#include "quality/triangle_measures.hpp"
 
 #include <Eigen/Cholesky>
 
@@ -48,7 +49,7 @@ Dihedral dihedral(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   n /= n.norm();
   m /= m.norm();
   Dihedral result;
-  result.angle = std::numbers::pi - std::atan2(n.cross(m).dot(along), n.dot(m));
+  result.angle = interior_angle(n, m, along);
   result.by_c = n / height_c;
   result.by_d = m / height_d;
   const double at_c = (c - a).dot(along) / length, at_d = (d - a).dot(along) / length;

@@ -1,5 +1,7 @@
 #include "preproc/volume/run_tetgen.hpp"
 
+#include "preproc/mesh/huge_pages.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -70,10 +72,7 @@ fs::path find_worker(const TetgenLimits& limits) {
                "install the worker beside the command");
 }
 
-// TetGen grows its pools by small pieces: taken as huge pages and in advance, a third of its time is saved. What the
-// user has set stays.
-constexpr const char* allocator_setting = "GLIBC_TUNABLES=glibc.malloc.hugetlb=1:glibc.malloc.top_pad=33554432";
-
+// What the user has set stays.
 std::vector<char*> environment_of_worker(std::string& setting) {
   std::vector<char*> result;
   const std::string_view name = std::string_view(setting).substr(0, setting.find('=') + 1);
@@ -96,7 +95,7 @@ class Child {
     argv.push_back(name.data());
     for (std::string& argument : arguments) argv.push_back(argument.data());
     argv.push_back(nullptr);
-    std::string setting = allocator_setting;
+    std::string setting = std::string(allocator_variable) + '=' + allocator_setting;
     const std::vector<char*> environment = environment_of_worker(setting);
 
     // TetGen prints even when told to be quiet, and the command's stdout belongs to its results.

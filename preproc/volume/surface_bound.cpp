@@ -1,6 +1,7 @@
 #include "preproc/volume/surface_bound.hpp"
 
 #include "quality/tetrahedron_measures.hpp"
+#include "quality/triangle_measures.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -32,12 +33,11 @@ std::vector<Side> sides(const SurfaceMesh& surface) {
   return result;
 }
 
-// Where the body lies between two triangles, radians, (0, 2 pi).
-double interior_angle(const SurfaceMesh& surface, const Side& first, const Side& second) {
+double angle_at_edge(const SurfaceMesh& surface, const Side& first, const Side& second) {
   const Vec3 n = area_vector(surface, surface.triangles[first.triangle]);
   const Vec3 m = area_vector(surface, surface.triangles[second.triangle]);
   const Vec3 along = (surface.vertices[first.head] - surface.vertices[first.tail]).normalized();
-  return std::numbers::pi - std::atan2(n.cross(m).dot(along), n.dot(m));
+  return interior_angle(n, m, along);
 }
 
 // Of a tetrahedron a, b, c, d at its edge from a to b, radians.
@@ -64,7 +64,7 @@ class ConvexEdges {
       : surface_(surface), sides_(sides(surface)), angle_(3 * surface.triangles.size(), 0) {
     for_each_edge([&](const Side& first, const Side& second) {
       angle_[3 * first.triangle + first.number] = angle_[3 * second.triangle + second.number] =
-          interior_angle(surface, first, second);
+          angle_at_edge(surface, first, second);
     });
   }
 

@@ -12,6 +12,7 @@
 // stage: bounds, points, TetGen in its child with the files between, optimisation. "x" is that over TetGen's own call
 // in the same run.
 #include "preproc/mesh/error.hpp"
+#include "preproc/mesh/huge_pages.hpp"
 #include "preproc/mesh/read_surface.hpp"
 #include "preproc/pipeline.hpp"
 #include "preproc/volume/fill_regions.hpp"
@@ -98,6 +99,14 @@ constexpr const char* table_head =
     "| | tetrahedra | told before | dihedral angles | scaled Jacobian min / mean | seconds | x | us each |\n"
     "|---|---|---|---|---|---|---|---|\n";
 
+// As anyone calls it: without the huge pages that our own calls ask for.
+TetgenOutput tetgen_alone(const SurfaceMesh& surface) {
+  setenv(allocator_variable, "", 1);
+  TetgenOutput output = run_tetgen({"pYQJq1.2/10", surface.vertices, surface.triangles});
+  unsetenv(allocator_variable);
+  return output;
+}
+
 // One surface's rows: TetGen and Gmsh alone, then ours.
 void rows(const char* title, const SurfaceMesh& surface, const std::vector<Setting>& settings) {
   const SurfaceBound bound = surface_bound(surface);
@@ -114,10 +123,7 @@ void rows(const char* title, const SurfaceMesh& surface, const std::vector<Setti
     std::fflush(stdout);
   };
 
-  // As anyone calls it: without the huge pages that our own calls ask for.
-  setenv("GLIBC_TUNABLES", "", 1);
-  auto [tetgen, seconds] = least_time([&] { return run_tetgen({"pYQJq1.2/10", surface.vertices, surface.triangles}); });
-  unsetenv("GLIBC_TUNABLES");
+  auto [tetgen, seconds] = least_time([&] { return tetgen_alone(surface); });
   row("TetGen `pYq1.2/10`",
       fill_regions(std::move(tetgen.points), std::move(tetgen.tetrahedra), surface.triangles, surface.vertices.size()),
       0, seconds);
@@ -199,10 +205,8 @@ void large(std::size_t faces, const std::filesystem::path& file) {
     std::fflush(stdout);
   };
   {
-    setenv("GLIBC_TUNABLES", "", 1);
     const double start = processor_seconds();
-    TetgenOutput tetgen = run_tetgen({"pYQJq1.2/10", surface.vertices, surface.triangles});
-    unsetenv("GLIBC_TUNABLES");
+    TetgenOutput tetgen = tetgen_alone(surface);
     const double seconds = processor_seconds() - start;
     row("TetGen `pYq1.2/10`",
         fill_regions(std::move(tetgen.points), std::move(tetgen.tetrahedra), surface.triangles,
