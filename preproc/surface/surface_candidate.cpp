@@ -31,8 +31,9 @@ constexpr double fidelity_of_parts = 0.0003;
 constexpr int first_rounds = 2;
 
 // Of the faces. Where all points are bounded afterwards, a few that oppose a rough scan do not make a surface useless,
-// and there is none without at sizes below the scan's own.
-constexpr double most_inverted_within_deviation = 0.001;
+// and there is none without at sizes below the scan's own. Without a bound only as many as a scan's own folds leave
+// among very many: to give up the lattice for one of half a million costs far more than it mends.
+constexpr double most_inverted_within_deviation = 0.001, most_inverted = 1e-5;
 
 // What an effort buys. Trials differ by a little in the sizing, which lays another lattice: of several, the distances
 // to the scan in the tightest folds differ by a third, so the best of them is worth having where time is no matter.
@@ -44,7 +45,7 @@ struct FitPlan {
   bool lowers_worst;              // see lower_worst
   bool within_deviation = false;  // the result is to be, and its deviation bounded
 
-  double most_inverted() const { return within_deviation ? most_inverted_within_deviation : 0; }
+  double largest_inverted_share() const { return within_deviation ? most_inverted_within_deviation : most_inverted; }
 };
 
 FitPlan plan_of(Effort effort) {
@@ -71,7 +72,7 @@ std::string describe(const SurfaceDefects& defects) {
 }
 
 // Exact volume, then the guard.
-void finish(Candidate& candidate, PreparedScan& scan, double most_inverted, const GuardOptions& options,
+void finish(Candidate& candidate, PreparedScan& scan, double largest_inverted_share, const GuardOptions& options,
             const Progress& progress) {
   try {
     GuardOptions guard = options;
@@ -81,7 +82,7 @@ void finish(Candidate& candidate, PreparedScan& scan, double most_inverted, cons
     candidate.crossings_mended = guarded.before.crossings.size();
     const std::size_t inverted = guarded.after.inverted.size();
     if (guarded.after.crossings.empty() &&
-        static_cast<double>(inverted) <= most_inverted * static_cast<double>(candidate.mesh.triangles.size()))
+        static_cast<double>(inverted) <= largest_inverted_share * static_cast<double>(candidate.mesh.triangles.size()))
       return;
     candidate.failure = describe(guarded.after);
     const auto centre = [&](std::uint32_t f) {
@@ -127,7 +128,7 @@ Candidate by_lattice(PreparedScan& scan, const SizingOptions& sizing, const FitP
     guard.fidelity_of_diagonal = candidate.fit.fidelity_of_diagonal;
     guard.loosest_fidelity_of_diagonal = 2 * candidate.fit.fidelity_of_diagonal;
   }
-  finish(candidate, scan, plan.most_inverted(), guard, progress);
+  finish(candidate, scan, plan.largest_inverted_share(), guard, progress);
   return candidate;
 }
 
@@ -181,7 +182,7 @@ Candidate by_contraction(PreparedScan& scan, const SizingOptions& sizing, const 
   if (plan.within_deviation) fit.hold_faces_below = 1;
   optimise_shape_and_fit(fitted.mesh, scan.reference(), fit, progress);
   const std::vector<Vec3> targets = fitted.mesh.vertices;
-  finish(fitted, scan, plan.most_inverted(), {}, progress);
+  finish(fitted, scan, plan.largest_inverted_share(), {}, progress);
   if (fitted.failure.empty()) return fitted;
 
   SurfaceMesh near_fit = contracted.mesh;
