@@ -28,7 +28,8 @@ constexpr int most_sweeps = 200;
 constexpr double margin = 2 * degree;
 // Against the shape energy: a radian of missing angle, and an edge length of way.
 constexpr double weight_of_angle = 400, weight_of_way = 1;
-// In edges: how far around its middle the scan is searched, and how much of a crease there must be.
+// In edges, of the mesh or of the scan where these are longer: how far around its middle the scan is searched, and how
+// much of a crease there must be. A single edge of a scan is no crease, however fine the mesh.
 constexpr double crease_reach = 2, least_crease = 2;
 constexpr double most_near = 0.01;                            // of the vertices
 constexpr double longest_step = 0.1, negligible_step = 1e-3;  // of the edges around
@@ -77,7 +78,8 @@ Dihedral dihedral_at(const SurfaceMesh& mesh, const std::vector<Triangle>& neigh
 // The mean angle of the scan's own sharp edges along an edge of the mesh, if they make a crease: noise has some, too.
 std::optional<double> scan_crease(const ReferenceSurface& scan, std::uint32_t start, const Vec3& centre,
                                   const Vec3& edge, double limit) {
-  const double reach = crease_reach * edge.norm();
+  const double unit = std::max(edge.norm(), scan.mean_edge(scan.mesh.triangles.size()));
+  const double reach = crease_reach * unit;
   std::vector<std::uint32_t> reached{start};
   std::unordered_set<std::uint32_t> known{start};
   double length = 0, sum = 0;
@@ -97,7 +99,7 @@ std::optional<double> scan_crease(const ReferenceSurface& scan, std::uint32_t st
       length += along;
       sum += along * angle;
     }
-  if (length < least_crease * edge.norm()) return std::nullopt;
+  if (length < least_crease * unit) return std::nullopt;
   return sum / length;
 }
 

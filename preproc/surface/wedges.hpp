@@ -45,8 +45,8 @@ struct WedgeResult {
 };
 
 // The edges sharper than the limit, with the angle wanted of them. The scan counts as sharp where its own edges,
-// sharper than the limit, make a line two edges long along the wedge, within two edges of its middle. O(n), and a
-// search in the scan for each of them.
+// sharper than the limit, make a line two edges long along the wedge, within two edges of its middle, of the mesh or of
+// the scan where these are longer. O(n), and a search in the scan for each of them.
 std::vector<Wedge> find_wedges(const SurfaceMesh& mesh, const ReferenceSurface& scan, double least_dihedral_deg);
 
 // Moves the vertices within two rings of each wedge and near pair to the minimum of the triangles' shape energy (see
