@@ -1,6 +1,7 @@
 #include "preproc/surface/wedges.hpp"
 
 #include "preproc/surface/defects.hpp"
+#include "preproc/surface/refined_scan.hpp"
 #include "quality/self_intersections.hpp"
 #include "tests/analytic_meshes.hpp"
 
@@ -74,6 +75,19 @@ TEST(Wedges, HeldEdgesAreAsSharpAsMeant) {
   const WedgeResult result = open_wedges(mesh, ReferenceSurface(scan), options);
   EXPECT_EQ(result.after, 0u);
   EXPECT_EQ(mesh.vertices, before.vertices);
+}
+
+// Whatever its own edges are like, a mesh that is finer than the scan does not take one edge of it for a crease.
+TEST(Wedges, AreNotOfTheScanForOneOfItsEdges) {
+  const SurfaceMesh scan = ridged_sphere();
+  SurfaceMesh mesh = scan;
+  std::vector<double> length(mesh.vertices.size(), 0.04);
+  std::vector<FeatureEdge> none;
+  halve_long_edges(mesh, length, none, 1, 1);
+  ASSERT_GT(mesh.triangles.size(), 10 * scan.triangles.size());
+  const std::vector<Wedge> wedges = find_wedges(mesh, ReferenceSurface(scan), 64);
+  ASSERT_FALSE(wedges.empty());
+  for (const Wedge& w : wedges) EXPECT_EQ(w.wanted_deg, 64);
 }
 
 // A plate in which one vertex of the upper sheet hangs close over one of the lower.
