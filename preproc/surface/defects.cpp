@@ -30,11 +30,12 @@ bool scan_agrees(const ReferenceSurface& scan, std::uint32_t start, const Vec3& 
 
 }  // namespace
 
+double angle_deg(const Vec3& apex, const Vec3& a, const Vec3& b) {
+  return std::atan2((a - apex).cross(b - apex).norm(), (a - apex).dot(b - apex)) * 180 / std::numbers::pi;
+}
+
 double smallest_angle_deg(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const auto angle = [](const Vec3& at, const Vec3& p, const Vec3& q) {
-    return std::atan2((p - at).cross(q - at).norm(), (p - at).dot(q - at));
-  };
-  return std::min({angle(a, b, c), angle(b, c, a), angle(c, a, b)}) * 180 / std::numbers::pi;
+  return std::min({angle_deg(a, b, c), angle_deg(b, c, a), angle_deg(c, a, b)});
 }
 
 std::vector<std::uint32_t> scan_vertices_of_faces(const SurfaceMesh& mesh, const ReferenceSurface& scan) {

@@ -33,6 +33,9 @@ std::vector<std::uint32_t> scan_vertices_of_faces(const SurfaceMesh& mesh, const
 SurfaceDefects find_defects(const SurfaceMesh& mesh, const ReferenceSurface& scan,
                             const std::vector<std::uint32_t>& near, double least_angle_deg);
 
+// At the apex between two other points.
+double angle_deg(const Vec3& apex, const Vec3& a, const Vec3& b);
+
 double smallest_angle_deg(const Vec3& a, const Vec3& b, const Vec3& c);
 
 }  // namespace scan2fea

@@ -41,7 +41,8 @@ void remove_fixed(std::vector<bool>& movable, const VertexConstraints& constrain
   }
 }
 
-// Angles between two edges on lines of the net are not the surface's to mend.
+// Angles between two edges on lines of the net are not the surface's to mend. A face's other small angles are: where a
+// line runs straight on over two of its sides, it has no area and asks for a flip.
 void drop_own_angles(SurfaceDefects& defects, const SurfaceMesh& mesh, const std::vector<FeatureEdge>& edges,
                      double least_angle_deg) {
   const auto is_on_line = [&](std::uint32_t a, std::uint32_t b) {
@@ -49,9 +50,12 @@ void drop_own_angles(SurfaceDefects& defects, const SurfaceMesh& mesh, const std
   };
   std::erase_if(defects.small_angles, [&](std::uint32_t f) {
     const Triangle& t = mesh.triangles[f];
-    bool own = false;
-    for (std::size_t k = 0; k < 3; ++k)
-      own = own || (is_on_line(t[k], t[(k + 1) % 3]) && is_on_line(t[k], t[(k + 2) % 3]));
+    bool own = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t v = t[k], next = t[(k + 1) % 3], last = t[(k + 2) % 3];
+      if (angle_deg(mesh.vertices[v], mesh.vertices[next], mesh.vertices[last]) < least_angle_deg)
+        own = own && is_on_line(v, next) && is_on_line(v, last);
+    }
     if (own)
       defects.missing_angles_deg -=
           least_angle_deg - smallest_angle_deg(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);

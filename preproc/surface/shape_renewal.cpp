@@ -2,6 +2,7 @@
 
 #include "preproc/mesh/error.hpp"
 #include "preproc/surface/adjacency.hpp"
+#include "preproc/surface/defects.hpp"
 #include "preproc/surface/feature_selection.hpp"
 #include "quality/triangle_measures.hpp"
 #include "quality/triangle_tree.hpp"
@@ -59,10 +60,6 @@ struct ShapeDefects {
     return least_angle_deg > other.least_angle_deg;
   }
 };
-
-double angle_deg(const Vec3& apex, const Vec3& a, const Vec3& b) {
-  return std::atan2((a - apex).cross(b - apex).norm(), (a - apex).dot(b - apex)) * degrees;
-}
 
 class ShapeCheck {
  public:

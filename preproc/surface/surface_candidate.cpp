@@ -7,7 +7,9 @@
 #include "preproc/surface/lattice.hpp"
 #include "preproc/surface/local_refinement.hpp"
 #include "preproc/surface/refined_scan.hpp"
+#include "preproc/surface/untangle.hpp"
 #include "preproc/surface/wedges.hpp"
+#include "quality/self_intersections.hpp"
 #include "quality/triangle_measures.hpp"
 
 #include <algorithm>
@@ -80,6 +82,9 @@ void finish(Candidate& candidate, PreparedScan& scan, double largest_inverted_sh
     guard.keep_volume = scan.is_closed();
     const GuardResult guarded = guard_surface(candidate.mesh, candidate.net, scan.reference(), guard, progress);
     candidate.crossings_mended = guarded.before.crossings.size();
+    if (SurfaceMesh flipped = candidate.mesh; flip_caps(flipped, edges_of(candidate.net)) > 0 &&
+                                              find_self_intersections(flipped).size() <= guarded.after.crossings.size())
+      candidate.mesh = std::move(flipped);
     const std::size_t inverted = guarded.after.inverted.size();
     if (guarded.after.crossings.empty() &&
         static_cast<double>(inverted) <= largest_inverted_share * static_cast<double>(candidate.mesh.triangles.size()))

@@ -13,6 +13,8 @@
 namespace scan2fea {
 namespace {
 
+constexpr double cap_quality = 0.02;  // 1 / eta, of a height of about a hundredth of the longest side
+
 double worst_of_star(const SurfaceMesh& mesh, const ReferenceSurface& scan, const std::vector<std::uint32_t>& near,
                      std::span<const std::uint32_t> corners) {
   double worst = 1;
@@ -116,6 +118,33 @@ std::size_t flip_worst(SurfaceMesh& mesh, const ReferenceSurface& scan, const st
     const Index d = halfedges.target(HalfedgeMesh::next(o));
     const double after = std::min(quality({a, d, c}, f), quality({d, b, c}, g));
     if (after <= before + 0.05) continue;
+    halfedges.flip(h);
+    ++flips;
+  }
+  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) mesh.triangles[f] = halfedges.triangle(f);
+  return flips;
+}
+
+std::size_t flip_caps(SurfaceMesh& mesh, const std::vector<FeatureEdge>& kept) {
+  using Index = HalfedgeMesh::Index;
+  const auto is_cap = [&](const Triangle& t) {
+    return 1 / eta(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]) < cap_quality;
+  };
+  if (std::none_of(mesh.triangles.begin(), mesh.triangles.end(), is_cap)) return 0;
+  HalfedgeMesh halfedges(mesh);
+  std::size_t flips = 0;
+  for (Index h = 0; h < 3 * halfedges.face_slots(); ++h) {
+    const Index a = halfedges.origin(h), b = halfedges.target(h);
+    if (!is_cap(halfedges.triangle(HalfedgeMesh::face(h))) || !halfedges.can_flip(h) ||
+        std::binary_search(kept.begin(), kept.end(), feature_edge(a, b)))
+      continue;
+    const Index o = halfedges.opposite(h);
+    const Index c = halfedges.target(HalfedgeMesh::next(h)), d = halfedges.target(HalfedgeMesh::next(o));
+    const Triangle beside = halfedges.triangle(HalfedgeMesh::face(o));
+    const Vec3 normal = area_vector(mesh, beside);
+    if (is_cap(beside) ||
+        std::min(signed_quality(mesh, {a, d, c}, normal), signed_quality(mesh, {d, b, c}, normal)) < cap_quality)
+      continue;
     halfedges.flip(h);
     ++flips;
   }

@@ -27,6 +27,11 @@ void smooth_worst(SurfaceMesh& mesh, const ReferenceSurface& scan, const std::ve
 std::size_t flip_worst(SurfaceMesh& mesh, const ReferenceSurface& scan, const std::vector<std::uint32_t>& near,
                        const std::vector<bool>& around, const std::vector<FeatureEdge>& kept = {});
 
+// Flips the longest edge of faces next to no area, as there are where a line of the part runs straight on over two of a
+// face's sides, but for `kept` ones (sorted), where both faces then have area and the side of the one that had; returns
+// the number of flips. The surface moves by no more than the caps' heights, a hundredth of an edge.
+std::size_t flip_caps(SurfaceMesh& mesh, const std::vector<FeatureEdge>& kept);
+
 // Pushes the faces of pairs that share no vertex apart, along the difference of their normals, to the sides on which
 // the scan has them, until they clear or have moved by half a mean edge. Returns whether they all cleared.
 bool push_apart(SurfaceMesh& mesh, const ReferenceSurface& scan, const std::vector<std::uint32_t>& near,

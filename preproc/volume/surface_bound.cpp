@@ -2,6 +2,7 @@
 
 #include "quality/tetrahedron_measures.hpp"
 #include "quality/triangle_measures.hpp"
+#include "quality/triangle_tree.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -112,6 +113,58 @@ class ConvexEdges {
   std::vector<double> angle_;  // by triangle and side
 };
 
+// Where along the way from `from` by `way` a triangle is met first, 0 to 1; nothing where it is not.
+std::optional<double> meets(const Vec3& from, const Vec3& way, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 u = b - a, v = c - a, across = way.cross(v);
+  const double determinant = u.dot(across);
+  if (determinant == 0) return std::nullopt;
+  const Vec3 w = from - a;
+  const double at_u = w.dot(across) / determinant, at_v = way.dot(w.cross(u)) / determinant;
+  const double at = v.dot(w.cross(u)) / determinant;
+  if (at_u < 0 || at_v < 0 || at_u + at_v > 1 || at < 0 || at > 1) return std::nullopt;
+  return at;
+}
+
+// The walls of the body behind its triangles.
+class Walls {
+ public:
+  explicit Walls(const SurfaceMesh& surface) : surface_(surface), tree_(surface) {}
+
+  // What triangle f bounds the angle to, if that is less than `bound_deg`, below 90.
+  double bound_deg(std::uint32_t f, double bound_deg) const {
+    const auto& [ia, ib, ic] = surface_.triangles[f];
+    const Vec3 &a = surface_.vertices[ia], &b = surface_.vertices[ib], &c = surface_.vertices[ic];
+    const Vec3 area = (b - a).cross(c - a);
+    const Eigen::Array3d opposite((c - b).norm(), (a - c).norm(), (b - a).norm());
+    const auto look_from = [&](const Eigen::Array3d& weights) {
+      const Vec3 place = weights[0] * a + weights[1] * b + weights[2] * c;
+      const double beside = (weights * area.norm() / opposite).minCoeff();  // to the nearest of the sides
+      const Vec3 way = -beside * std::tan(bound_deg / degrees) * area.normalized();
+      BoundingBox box;
+      box.low = place.cwiseMin(place + way);
+      box.high = place.cwiseMax(place + way);
+      tree_.for_each_overlap(box, [&](std::uint32_t g) {
+        if (g == f) return;
+        const auto& [u, v, w] = surface_.triangles[g];
+        const auto at = meets(place, way, surface_.vertices[u], surface_.vertices[v], surface_.vertices[w]);
+        if (at) bound_deg = std::min(bound_deg, std::atan(*at * way.norm() / beside) * degrees);
+      });
+    };
+    const Eigen::Array3d incentre = opposite / opposite.sum();
+    look_from(incentre);
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      Eigen::Array3d towards_corner = incentre / 2;
+      towards_corner[k] += 0.5;
+      look_from(towards_corner);
+    }
+    return bound_deg;
+  }
+
+ private:
+  const SurfaceMesh& surface_;
+  TriangleTree tree_;
+};
+
 }  // namespace
 
 SurfaceBound surface_bound(const SurfaceMesh& surface) {
@@ -132,6 +185,14 @@ SurfaceBound surface_bound(const SurfaceMesh& surface) {
     bound.min_dihedral_deg = edge->min_dihedral_deg;
     bound.min_dihedral_at = middle;
   });
+  const Walls walls(surface);
+  for (std::uint32_t f = 0; f < surface.triangles.size(); ++f) {
+    const double angle = walls.bound_deg(f, bound.min_dihedral_deg);
+    if (angle >= bound.min_dihedral_deg) continue;
+    const Triangle& t = surface.triangles[f];
+    bound.min_dihedral_deg = angle;
+    bound.min_dihedral_at = (p[t[0]] + p[t[1]] + p[t[2]]) / 3;
+  }
   for (const Triangle& t : surface.triangles)
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3 u = p[t[(k + 1) % 3]] - p[t[k]], v = p[t[(k + 2) % 3]] - p[t[k]];
