@@ -3,6 +3,8 @@
 #include "analytic_meshes.hpp"
 #include "preproc/mesh/error.hpp"
 #include "preproc/surface/features.hpp"
+#include "preproc/surface/untangle.hpp"
+#include "quality/triangle_measures.hpp"
 
 #include <gtest/gtest.h>
 
@@ -143,6 +145,20 @@ TEST(Defects, NoFaceIsInvertedBesideACreaseThatEndsInsideItsPatch) {
     net.lines[0].points.push_back(fold.vertices[v]);
   }
   EXPECT_TRUE(find_defects(fold, scan, scan_vertices_of_faces(fold, net, scan), 0).inverted.empty());
+}
+
+// A vertex in the middle of its neighbours' edge: the face between has no area, and neither has its flip's.
+TEST(Caps, AreFlippedAway) {
+  SurfaceMesh mesh = analytic::sphere(1, 3);
+  const Triangle cap = mesh.triangles[100];
+  mesh.vertices[cap[0]] = (mesh.vertices[cap[1]] + mesh.vertices[cap[2]]) / 2;
+  const double volume = enclosed_volume(mesh);
+  SurfaceMesh held = mesh;
+  EXPECT_EQ(flip_caps(held, {feature_edge(cap[1], cap[2])}), 0U);
+  EXPECT_EQ(flip_caps(mesh, {}), 1U);
+  for (const Triangle& t : mesh.triangles) EXPECT_GT(area_vector(mesh, t).norm(), 1e-4);
+  EXPECT_NEAR(enclosed_volume(mesh), volume, 1e-12);
+  EXPECT_EQ(flip_caps(mesh, {}), 0U);
 }
 
 }  // namespace

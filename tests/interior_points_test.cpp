@@ -1,6 +1,8 @@
 #include "preproc/volume/interior_points.hpp"
 
 #include "preproc/volume/surface_bound.hpp"
+#include "preproc/volume/tetrahedralize.hpp"
+#include "quality/tetrahedron_measures.hpp"
 #include "tests/analytic_meshes.hpp"
 
 #include <gtest/gtest.h>
@@ -87,6 +89,15 @@ TEST(SurfaceBound, AWedgeIsFoundWithItsPlace) {
   EXPECT_LE(bound.min_dihedral_deg, 20 + 1e-9);
   EXPECT_GE(bound.min_dihedral_deg, 10 - 1e-9);
   EXPECT_NEAR(bound.min_dihedral_at.y(), 0, 1e-12);
+}
+
+TEST(SurfaceBound, AThinWallIsFound) {
+  // Right-angled triangles with legs of 1: the inscribed circle's radius is (2 - sqrt 2) / 2.
+  const double thickness = 0.05, radius = 1 - std::numbers::sqrt2 / 2;
+  const SurfaceMesh plate = analytic::box({4, 4, thickness}, 1);
+  const SurfaceBound bound = surface_bound(plate);
+  EXPECT_NEAR(bound.min_dihedral_deg, std::atan(thickness / radius) * 180 / std::numbers::pi, 1e-9);
+  EXPECT_LE(measure_tetrahedra(tetrahedralize(plate).mesh).min_dihedral_deg, bound.min_dihedral_deg);
 }
 
 }  // namespace

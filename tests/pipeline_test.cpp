@@ -3,6 +3,7 @@
 #include "preproc/pipeline.hpp"
 
 #include "preproc/surface/adjacency.hpp"
+#include "quality/tetrahedron_measures.hpp"
 #include "tests/analytic_meshes.hpp"
 
 #include <gtest/gtest.h>
@@ -69,6 +70,31 @@ TEST(Pipeline, KeepsTheEdgesOfACantilever) {
 
 TEST(Pipeline, KeepsTheEdgesOfAPlateWithAHole) {
   expect_edges_to_stay(analytic::slab_with_holes(1, 0.125), 0.2);
+}
+
+// Four-sided spikes on the faces of a cube: a crease runs straight on along every ridge, over two sides of a face if
+// that is let.
+SurfaceMesh star() {
+  SurfaceMesh mesh;
+  for (int i = 0; i < 8; ++i) mesh.vertices.emplace_back(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+  for (std::uint32_t axis = 0; axis < 3; ++axis)
+    for (const std::uint32_t side : {0U, 1U}) {
+      const std::uint32_t x = 1U << axis, y = 1U << (axis + 1) % 3, z = 1U << (axis + 2) % 3;
+      std::array<std::uint32_t, 4> around{side * x, side * x + y, side * x + y + z, side * x + z};
+      if (side == 0) std::reverse(around.begin(), around.end());
+      const auto tip = static_cast<std::uint32_t>(mesh.vertices.size());
+      mesh.vertices.push_back((side == 0 ? -4 : 4) * Vec3::Unit(axis));
+      for (std::size_t k = 0; k < 4; ++k) mesh.triangles.push_back({around[k], around[(k + 1) % 4], tip});
+    }
+  return mesh;
+}
+
+TEST(Pipeline, MeshesASpikyPartWell) {
+  PipelineOptions options;
+  options.simplify->size = FaceRatio{0.5};
+  const PipelineResult result = run_pipeline(star(), options);
+  ASSERT_TRUE(result.volume_mesh.has_value());
+  EXPECT_GT(measure_tetrahedra(*result.volume_mesh).min_dihedral_deg, 24);
 }
 
 TEST(Pipeline, PutsTwoElementsAcrossAThinWall) {

@@ -22,7 +22,10 @@ struct SurfaceBound {
 // of the angles at their other edges is for others: the better of both bounds the angle. The scaled Jacobian of an
 // element with the dihedral angle phi at an edge is at most sqrt(2) sin(phi) h / m, with h the height of a triangle
 // there over the edge and m the longer of its other two sides; and at a triangle's corner of angle alpha at most
-// sqrt(2) sin(alpha). The surface is closed and manifold. O(n log n).
+// sqrt(2) sin(alpha). Behind a point of a triangle, d from the nearest of its sides, an element of the angle phi at
+// each side reaches at least d tan(phi) deep, and no element reaches through the body: where the wall behind the point
+// is t thick, no angle is above atan(t / d). Looked at behind the triangle's incentre and half way from there to its
+// corners. The surface is closed and manifold. O(n log n).
 SurfaceBound surface_bound(const SurfaceMesh& surface);
 
 }  // namespace scan2fea
