@@ -5,6 +5,7 @@
 #include "quality/triangle_tree.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -131,36 +132,46 @@ class Walls {
   explicit Walls(const SurfaceMesh& surface) : surface_(surface), tree_(surface) {}
 
   // What triangle f bounds the angle to, if that is less than `bound_deg`, below 90.
-  double bound_deg(std::uint32_t f, double bound_deg) const {
+  double lowered_by(std::uint32_t f, double bound_deg) const {
     const auto& [ia, ib, ic] = surface_.triangles[f];
     const Vec3 &a = surface_.vertices[ia], &b = surface_.vertices[ib], &c = surface_.vertices[ic];
-    const Vec3 area = (b - a).cross(c - a);
+    const Vec3 area = (b - a).cross(c - a), inwards = -area.normalized();
     const Eigen::Array3d opposite((c - b).norm(), (a - c).norm(), (b - a).norm());
-    const auto look_from = [&](const Eigen::Array3d& weights) {
-      const Vec3 place = weights[0] * a + weights[1] * b + weights[2] * c;
-      const double beside = (weights * area.norm() / opposite).minCoeff();  // to the nearest of the sides
-      const Vec3 way = -beside * std::tan(bound_deg / degrees) * area.normalized();
-      BoundingBox box;
-      box.low = place.cwiseMin(place + way);
-      box.high = place.cwiseMax(place + way);
-      tree_.for_each_overlap(box, [&](std::uint32_t g) {
-        if (g == f) return;
-        const auto& [u, v, w] = surface_.triangles[g];
-        const auto at = meets(place, way, surface_.vertices[u], surface_.vertices[v], surface_.vertices[w]);
-        if (at) bound_deg = std::min(bound_deg, std::atan(*at * way.norm() / beside) * degrees);
-      });
-    };
     const Eigen::Array3d incentre = opposite / opposite.sum();
-    look_from(incentre);
-    for (Eigen::Index k = 0; k < 3; ++k) {
-      Eigen::Array3d towards_corner = incentre / 2;
-      towards_corner[k] += 0.5;
-      look_from(towards_corner);
+    std::array<Look, 4> looks;
+    BoundingBox box;
+    for (std::size_t k = 0; k < looks.size(); ++k) {
+      Eigen::Array3d weights = incentre;
+      if (k < 3) {
+        weights /= 2;
+        weights[static_cast<Eigen::Index>(k)] += 0.5;
+      }
+      Look& look = looks[k];
+      look.from = weights[0] * a + weights[1] * b + weights[2] * c;
+      look.beside = (weights * area.norm() / opposite).minCoeff();
+      look.way = look.beside * std::tan(bound_deg / degrees) * inwards;
+      const Vec3 end = look.from + look.way;
+      if (k == 0) box = {look.from, look.from};
+      box.low = box.low.cwiseMin(look.from).cwiseMin(end);
+      box.high = box.high.cwiseMax(look.from).cwiseMax(end);
     }
+    tree_.for_each_overlap(box, [&](std::uint32_t g) {
+      if (g == f || area_vector(surface_, surface_.triangles[g]).dot(inwards) <= 0) return;  // no way out of the body
+      const auto& [u, v, w] = surface_.triangles[g];
+      for (const Look& look : looks)
+        if (const auto at =
+                meets(look.from, look.way, surface_.vertices[u], surface_.vertices[v], surface_.vertices[w]))
+          bound_deg = std::min(bound_deg, std::atan(*at * look.way.norm() / look.beside) * degrees);
+    });
     return bound_deg;
   }
 
  private:
+  struct Look {
+    Vec3 from, way;
+    double beside;  // to the nearest of the triangle's sides
+  };
+
   const SurfaceMesh& surface_;
   TriangleTree tree_;
 };
@@ -187,7 +198,7 @@ SurfaceBound surface_bound(const SurfaceMesh& surface) {
   });
   const Walls walls(surface);
   for (std::uint32_t f = 0; f < surface.triangles.size(); ++f) {
-    const double angle = walls.bound_deg(f, bound.min_dihedral_deg);
+    const double angle = walls.lowered_by(f, bound.min_dihedral_deg);
     if (angle >= bound.min_dihedral_deg) continue;
     const Triangle& t = surface.triangles[f];
     bound.min_dihedral_deg = angle;
