@@ -53,6 +53,10 @@ std::optional<TriangleShape> measure_triangle(const Vec3& a, const Vec3& b, cons
   return shape;
 }
 
+double angle_between(const Vec3& u, const Vec3& v) {
+  return std::atan2(u.cross(v).norm(), u.dot(v));
+}
+
 double interior_angle(const Vec3& first_normal, const Vec3& second_normal, const Vec3& along) {
   return std::numbers::pi - std::atan2(first_normal.cross(second_normal).dot(along), first_normal.dot(second_normal));
 }

@@ -25,6 +25,9 @@ struct TriangleShape {
 // Nothing for a triangle of zero area.
 std::optional<TriangleShape> measure_triangle(const Vec3& a, const Vec3& b, const Vec3& c);
 
+// Radians, 0 to pi; accurate to the last digits for small ones, too. 0 where one of them has no length.
+double angle_between(const Vec3& u, const Vec3& v);
+
 // The angle between two triangles on the side that their normals point away from, radians, (0, 2 pi): that of the body,
 // if they face outwards. `along`: unit, the edge that they share, as the first one turns; the normals have any length.
 double interior_angle(const Vec3& first_normal, const Vec3& second_normal, const Vec3& along);

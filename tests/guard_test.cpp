@@ -147,7 +147,7 @@ TEST(Defects, NoFaceIsInvertedBesideACreaseThatEndsInsideItsPatch) {
   EXPECT_TRUE(find_defects(fold, scan, scan_vertices_of_faces(fold, net, scan), 0).inverted.empty());
 }
 
-// A vertex in the middle of its neighbours' edge: the face between has no area, and neither has its flip's.
+// A vertex in the middle of its neighbours' edge: the face between has no area, and a flip gives it some.
 TEST(Caps, AreFlippedAway) {
   SurfaceMesh mesh = analytic::sphere(1, 3);
   const Triangle cap = mesh.triangles[100];

@@ -2,6 +2,7 @@
 
 #include "preproc/surface/feature_edge.hpp"
 #include "preproc/surface/halfedge_mesh.hpp"
+#include "quality/triangle_measures.hpp"
 
 #include <algorithm>
 #include <array>
@@ -148,7 +149,7 @@ class Cleaner {
     mesh_.for_each_outgoing(v, [&](Index h) {
       const Vec3 a = mesh_.points[mesh_.target(h)] - mesh_.points[v];
       const Vec3 b = mesh_.points[mesh_.origin(HalfedgeMesh::prev(h))] - mesh_.points[v];
-      angle += std::atan2(a.cross(b).norm(), a.dot(b));
+      angle += angle_between(a, b);
     });
     return angle;
   }

@@ -2,6 +2,7 @@
 
 #include "preproc/surface/cut_surface.hpp"
 #include "preproc/surface/nearest_vertices.hpp"
+#include "quality/triangle_measures.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +32,7 @@ bool scan_agrees(const ReferenceSurface& scan, std::uint32_t start, const Vec3& 
 }  // namespace
 
 double angle_deg(const Vec3& apex, const Vec3& a, const Vec3& b) {
-  return std::atan2((a - apex).cross(b - apex).norm(), (a - apex).dot(b - apex)) * 180 / std::numbers::pi;
+  return angle_between(a - apex, b - apex) * 180 / std::numbers::pi;
 }
 
 double smallest_angle_deg(const Vec3& a, const Vec3& b, const Vec3& c) {

@@ -1,5 +1,7 @@
 #include "preproc/surface/feature_curves.hpp"
 
+#include "quality/triangle_measures.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -101,7 +103,7 @@ class Tracer {
 };
 
 double turn_deg(const Vec3& before, const Vec3& after) {
-  return std::atan2(before.cross(after).norm(), before.dot(after)) * (180 / std::numbers::pi);
+  return angle_between(before, after) * (180 / std::numbers::pi);
 }
 
 // One traced curve, by arc length.

@@ -5,6 +5,7 @@
 #include "preproc/surface/cut_surface.hpp"
 #include "preproc/surface/sizing_field.hpp"
 #include "preproc/surface/union_find.hpp"
+#include "quality/triangle_measures.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -49,7 +50,7 @@ std::vector<CreaseEdge> creases_with_patches(const SurfaceMesh& scan, const std:
     creases.push_back({sides[i].edge,
                        {low, high},
                        (scan.vertices[sides[i].edge[0]] - scan.vertices[sides[i].edge[1]]).norm(),
-                       std::atan2(m.cross(n).norm(), m.dot(n))});
+                       angle_between(m, n)});
   }
   return creases;
 }
@@ -148,7 +149,7 @@ class CreaseGraph {
         const FeatureEdge edge = feature_edge(scan.triangles[f][(k + 1) % 3], scan.triangles[f][(k + 2) % 3]);
         const std::uint32_t g = neighbours[f][k];
         if (g != no_face && std::binary_search(sharp.begin(), sharp.end(), edge))
-          bend_[edge] = std::atan2(normals[f].cross(normals[g]).norm(), normals[f].dot(normals[g]));
+          bend_[edge] = angle_between(normals[f], normals[g]);
       }
   }
 

@@ -4,6 +4,7 @@
 #include "preproc/surface/feature_chains.hpp"
 #include "preproc/surface/normal_filter.hpp"
 #include "preproc/surface/scan_noise.hpp"
+#include "quality/triangle_measures.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -33,7 +34,7 @@ double mean_edge_length(const SurfaceMesh& scan) {
 }
 
 double angle_deg(const Vec3& a, const Vec3& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b)) * (180 / std::numbers::pi);
+  return angle_between(a, b) * (180 / std::numbers::pi);
 }
 
 // Faces near an edge that is sharper than the angle: those within three rings.

@@ -1,5 +1,7 @@
 #include "preproc/surface/hole_filling.hpp"
 
+#include "quality/triangle_measures.hpp"
+
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/fair.h>
 #include <CGAL/Polygon_mesh_processing/refine.h>
@@ -93,7 +95,7 @@ double mean_border_angle_deg(const Surface& surface, const std::vector<Halfedge>
     const Vec3 inside = normal(surface.face(h)), outside = normal(surface.face(surface.opposite(h)));
     if (inside.isZero() || outside.isZero()) continue;
     const double length = (position(surface.source(h)) - position(surface.target(h))).norm();
-    sum += length * std::atan2(inside.cross(outside).norm(), inside.dot(outside));
+    sum += length * angle_between(inside, outside);
     length_sum += length;
   }
   return length_sum > 0 ? sum / length_sum * 180 / std::numbers::pi : 0;

@@ -1,5 +1,7 @@
 #include "preproc/surface/side_normals.hpp"
 
+#include "quality/triangle_measures.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -14,7 +16,7 @@ double dihedral_deg(const HalfedgeMesh& mesh, Index h) {
   if (mesh.is_border(h)) return 0;
   const Vec3 w1 = mesh.area_vector(HalfedgeMesh::face(h));
   const Vec3 w2 = mesh.area_vector(HalfedgeMesh::face(mesh.opposite(h)));
-  return std::atan2(w1.cross(w2).norm(), w1.dot(w2)) * 180 / std::numbers::pi;
+  return angle_between(w1, w2) * 180 / std::numbers::pi;
 }
 
 }  // namespace

@@ -73,7 +73,7 @@ std::string describe(const SurfaceDefects& defects) {
          std::to_string(defects.inverted.size()) + " inverted faces remained";
 }
 
-// Exact volume, then the guard.
+// Exact volume, the guard, and flips of what it leaves without area.
 void finish(Candidate& candidate, PreparedScan& scan, double largest_inverted_share, const GuardOptions& options,
             const Progress& progress) {
   try {

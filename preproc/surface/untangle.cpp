@@ -35,6 +35,35 @@ Vec3 centroid_of_link(const SurfaceMesh& mesh, std::span<const std::uint32_t> co
   return sum / (2.0 * static_cast<double>(corners.size()));
 }
 
+// An edge as one of its two faces turns, that face first.
+struct Flip {
+  std::array<std::uint32_t, 2> edge, faces;
+  std::array<Triangle, 2> before, after;
+};
+
+// Flips each edge that may be flipped, is not `kept` (sorted), and that `wants` of it, in turn from both sides; returns
+// the number of flips. Faces keep their indices.
+template <class Wants>
+std::size_t flip_edges(SurfaceMesh& mesh, const std::vector<FeatureEdge>& kept, Wants wants) {
+  using Index = HalfedgeMesh::Index;
+  HalfedgeMesh halfedges(mesh);
+  std::size_t flips = 0;
+  for (Index h = 0; h < 3 * halfedges.face_slots(); ++h) {
+    const Index a = halfedges.origin(h), b = halfedges.target(h);
+    if (halfedges.is_border(h)) continue;
+    const Index o = halfedges.opposite(h);
+    const std::uint32_t f = HalfedgeMesh::face(h), g = HalfedgeMesh::face(o);
+    const Index c = halfedges.target(HalfedgeMesh::next(h)), d = halfedges.target(HalfedgeMesh::next(o));
+    const Flip flip{{a, b}, {f, g}, {halfedges.triangle(f), halfedges.triangle(g)}, {Triangle{a, d, c}, {d, b, c}}};
+    if (!wants(flip) || std::binary_search(kept.begin(), kept.end(), feature_edge(a, b)) || !halfedges.can_flip(h))
+      continue;
+    halfedges.flip(h);
+    ++flips;
+  }
+  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) mesh.triangles[f] = halfedges.triangle(f);
+  return flips;
+}
+
 bool share_a_vertex(const Triangle& a, const Triangle& b) {
   return std::any_of(a.begin(), a.end(), [&](std::uint32_t v) { return std::find(b.begin(), b.end(), v) != b.end(); });
 }
@@ -100,56 +129,28 @@ void smooth_worst(SurfaceMesh& mesh, const ReferenceSurface& scan, const std::ve
 
 std::size_t flip_worst(SurfaceMesh& mesh, const ReferenceSurface& scan, const std::vector<std::uint32_t>& near,
                        const std::vector<bool>& around, const std::vector<FeatureEdge>& kept) {
-  using Index = HalfedgeMesh::Index;
-  HalfedgeMesh halfedges(mesh);
-  std::size_t flips = 0;
-  for (Index h = 0; h < 3 * halfedges.face_slots(); ++h) {
-    const Index a = halfedges.origin(h), b = halfedges.target(h);
-    if (!around[a] || !around[b] || std::binary_search(kept.begin(), kept.end(), feature_edge(a, b))) continue;
-    if (!halfedges.can_flip(h)) continue;
-    const Index o = halfedges.opposite(h);
-    const std::uint32_t f = HalfedgeMesh::face(h);
-    const std::uint32_t g = HalfedgeMesh::face(o);
-    const auto quality = [&](const Triangle& t, std::uint32_t face) {
-      return signed_quality(mesh, t, scan.vertex_normals[near[face]]);
+  return flip_edges(mesh, kept, [&](const Flip& flip) {
+    if (!around[flip.edge[0]] || !around[flip.edge[1]]) return false;
+    const auto worse_quality = [&](const std::array<Triangle, 2>& faces) {
+      return std::min(signed_quality(mesh, faces[0], scan.vertex_normals[near[flip.faces[0]]]),
+                      signed_quality(mesh, faces[1], scan.vertex_normals[near[flip.faces[1]]]));
     };
-    const double before = std::min(quality(halfedges.triangle(f), f), quality(halfedges.triangle(g), g));
-    const Index c = halfedges.target(HalfedgeMesh::next(h));
-    const Index d = halfedges.target(HalfedgeMesh::next(o));
-    const double after = std::min(quality({a, d, c}, f), quality({d, b, c}, g));
-    if (after <= before + 0.05) continue;
-    halfedges.flip(h);
-    ++flips;
-  }
-  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) mesh.triangles[f] = halfedges.triangle(f);
-  return flips;
+    return worse_quality(flip.after) > worse_quality(flip.before) + 0.05;
+  });
 }
 
 std::size_t flip_caps(SurfaceMesh& mesh, const std::vector<FeatureEdge>& kept) {
-  using Index = HalfedgeMesh::Index;
   const auto is_cap = [&](const Triangle& t) {
     return 1 / eta(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]) < cap_quality;
   };
   if (std::none_of(mesh.triangles.begin(), mesh.triangles.end(), is_cap)) return 0;
-  HalfedgeMesh halfedges(mesh);
-  std::size_t flips = 0;
-  for (Index h = 0; h < 3 * halfedges.face_slots(); ++h) {
-    const Index a = halfedges.origin(h), b = halfedges.target(h);
-    if (!is_cap(halfedges.triangle(HalfedgeMesh::face(h))) || !halfedges.can_flip(h) ||
-        std::binary_search(kept.begin(), kept.end(), feature_edge(a, b)))
-      continue;
-    const Index o = halfedges.opposite(h);
-    const Index c = halfedges.target(HalfedgeMesh::next(h)), d = halfedges.target(HalfedgeMesh::next(o));
-    const Triangle beside = halfedges.triangle(HalfedgeMesh::face(o));
+  return flip_edges(mesh, kept, [&](const Flip& flip) {
+    const auto& [cap, beside] = flip.before;
+    if (!is_cap(cap) || is_cap(beside)) return false;
     const Vec3 normal = area_vector(mesh, beside);
-    if (is_cap(beside) ||
-        std::min(signed_quality(mesh, {a, d, c}, normal), signed_quality(mesh, {d, b, c}, normal)) < cap_quality)
-      continue;
-    halfedges.flip(h);
-    ++flips;
-  }
-  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) mesh.triangles[f] = halfedges.triangle(f);
-  return flips;
+    return std::all_of(flip.after.begin(), flip.after.end(),
+                       [&](const Triangle& t) { return signed_quality(mesh, t, normal) >= cap_quality; });
+  });
 }
 
 bool push_apart(SurfaceMesh& mesh, const ReferenceSurface& scan, const std::vector<std::uint32_t>& near,

@@ -1,5 +1,7 @@
 #include "preproc/volume/inside_test.hpp"
 
+#include "quality/triangle_measures.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -49,7 +51,7 @@ InsideTest::InsideTest(const SurfaceMesh& surface)
       const Triangle& corners = surface.triangles[t];
       const Vec3 u = surface.vertices[corners[(k + 1) % 3]] - surface.vertices[corners[k]];
       const Vec3 v = surface.vertices[corners[(k + 2) % 3]] - surface.vertices[corners[k]];
-      vertex_normals_[corners[k]] += std::atan2(u.cross(v).norm(), u.dot(v)) * normals[t];
+      vertex_normals_[corners[k]] += angle_between(u, v) * normals[t];
     }
 }
 

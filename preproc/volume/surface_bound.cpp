@@ -44,8 +44,7 @@ double angle_at_edge(const SurfaceMesh& surface, const Side& first, const Side& 
 
 // Of a tetrahedron a, b, c, d at its edge from a to b, radians.
 double dihedral(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  const Vec3 n = (b - a).cross(c - a), m = (b - a).cross(d - a);
-  return std::atan2(n.cross(m).norm(), n.dot(m));
+  return angle_between((b - a).cross(c - a), (b - a).cross(d - a));
 }
 
 // Of a triangle's side: the height over it, over the longer of the other two sides.
@@ -139,7 +138,7 @@ class Walls {
     const Eigen::Array3d opposite((c - b).norm(), (a - c).norm(), (b - a).norm());
     const Eigen::Array3d incentre = opposite / opposite.sum();
     std::array<Look, 4> looks;
-    BoundingBox box;
+    BoundingBox box{a, a};
     for (std::size_t k = 0; k < looks.size(); ++k) {
       Eigen::Array3d weights = incentre;
       if (k < 3) {
@@ -151,7 +150,6 @@ class Walls {
       look.beside = (weights * area.norm() / opposite).minCoeff();
       look.way = look.beside * std::tan(bound_deg / degrees) * inwards;
       const Vec3 end = look.from + look.way;
-      if (k == 0) box = {look.from, look.from};
       box.low = box.low.cwiseMin(look.from).cwiseMin(end);
       box.high = box.high.cwiseMax(look.from).cwiseMax(end);
     }
