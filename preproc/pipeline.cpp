@@ -1,6 +1,7 @@
 #include "preproc/pipeline.hpp"
 
 #include "preproc/mesh/error.hpp"
+#include "preproc/renewal.hpp"
 #include "preproc/volume/mid_edge_nodes.hpp"
 
 #include <algorithm>
@@ -117,6 +118,16 @@ void describe(const TetrahedralizeResult& result, StageRecord& record) {
   if (result.optimised.stopped_by_time) record.remarks.push_back("the time limit ended the optimisation early");
 }
 
+// What was gained, and of the mesh that stands now the same figures as of the first.
+void describe(const RenewalResult& renewal, const FilledSurface& made, StageRecord& record) {
+  if (renewal.gained) describe(made.filled, record);
+  record.changes.insert(record.changes.begin(), {{"surfaces_made", static_cast<double>(renewal.rounds)},
+                                                 {"min_dihedral_before_deg", renewal.min_dihedral_before_deg},
+                                                 {"min_dihedral_after_deg", renewal.min_dihedral_after_deg},
+                                                 {"faces_after", static_cast<double>(made.surface.triangles.size())}});
+  if (!made.simplified.size_remark.empty() && renewal.gained) record.remarks.push_back(made.simplified.size_remark);
+}
+
 // Between two sides whose triangles are as wide as half of the wall there are nodes everywhere only if those inside are
 // about as near to one another.
 void need_nodes_in_walls(TetrahedralizeOptions& options) {
@@ -134,28 +145,39 @@ PipelineResult run_pipeline(SurfaceMesh scan, const PipelineOptions& options, co
   if (options.repair)
     log.run("repair", [&](StageRecord& record) { describe(repair(scan, *options.repair, progress), record); });
   result.scan = std::move(scan);
-  // Scans are large: none is copied that the next stage reads only.
-  if (options.enrich || !options.simplify) result.surface = result.scan;
+  SurfaceMesh enriched;  // scans are large: none is copied that the next stage reads only
   if (options.enrich)
-    log.run("enrich",
-            [&](StageRecord& record) { describe(enrich(result.surface, *options.enrich, progress), record); });
+    log.run("enrich", [&](StageRecord& record) {
+      enriched = result.scan;
+      describe(enrich(enriched, *options.enrich, progress), record);
+    });
+  const SurfaceMesh& dense = options.enrich ? enriched : result.scan;
+  FilledSurface made;
+  SimplifyOptions simplification = options.simplify.value_or(SimplifyOptions{});
+  simplification.for_tetrahedra |= options.tetrahedralize.has_value();
   if (options.simplify)
     log.run("simplify", [&](StageRecord& record) {
-      SimplifyOptions simplification = *options.simplify;
-      simplification.for_tetrahedra |= options.tetrahedralize.has_value();
-      SimplifyResult simplified = options.enrich ? simplify(result.surface, simplification, progress)
-                                                 : simplify(result.scan, result.surface, simplification, progress);
-      describe(simplified, simplification.size, record);
-      result.features = std::move(simplified.features);
+      made.simplified = simplify(dense, made.surface, simplification, progress);
+      describe(made.simplified, simplification.size, record);
     });
+  else
+    made.surface = dense;
   if (options.tetrahedralize) {
+    TetrahedralizeOptions tetrahedralization = *options.tetrahedralize;
+    if (simplification.limits.elements_across) need_nodes_in_walls(tetrahedralization);
     log.run("tetrahedralize", [&](StageRecord& record) {
-      TetrahedralizeOptions tetrahedralization = *options.tetrahedralize;
-      if (options.simplify && options.simplify->limits.elements_across) need_nodes_in_walls(tetrahedralization);
-      TetrahedralizeResult filled = tetrahedralize(result.surface, tetrahedralization, progress);
-      describe(filled, record);
-      result.volume_mesh = std::move(filled.mesh);
+      made.filled = tetrahedralize(made.surface, tetrahedralization, progress);
+      describe(made.filled, record);
     });
+    if (options.simplify && worth_renewing(simplification, tetrahedralization, made))
+      log.run("renewal", [&](StageRecord& record) {
+        describe(renew_where_poor(dense, simplification, tetrahedralization, made, progress), made, record);
+      });
+  }
+  result.surface = std::move(made.surface);
+  result.features = std::move(made.simplified.features);
+  if (options.tetrahedralize) {
+    result.volume_mesh = std::move(made.filled.mesh);
     if (options.order == 2)
       log.run("second order", [&](StageRecord& record) {
         const std::size_t corners = result.volume_mesh->nodes.size();

@@ -114,7 +114,8 @@ class ShapeCheck {
     if (n.dot(m) > 0) return 180;
     const Vec3 along = (mesh_.vertices[b] - mesh_.vertices[a]).normalized();
     const double half = interior_angle(n, m, along) / 2 * degrees;
-    return half < least_angle_deg && is_crease(a, b) ? 180 : half;
+    if (half < least_angle_deg && is_crease(a, b)) return 2 * half >= least_corner_deg ? 180 : 2 * half;
+    return half;
   }
 
   // Where the other side of the body is so near that elements across it are flat: the angle at the base of the element
