@@ -14,9 +14,10 @@ constexpr double good_deg = 24;
 constexpr double of_bound = 0.9;
 // A surface that allows no more is itself to be mended. TetGen aims at as much.
 constexpr double least_deg = 10;
-constexpr double most_poor = 0.1;  // of the elements
+constexpr double many_poor = 0.1;  // of the elements
 constexpr std::size_t most_triangles = 50000;
 constexpr double most_growth = 2, most_of_small = 12000;  // triangles, over the first surface's or absolute
+constexpr double worth_it_deg = 1;
 // Around a poor element: over its longest edge, and of the surface's edges there, by how poor it is.
 constexpr double reach = 1.5, most_shortening = 0.5, least_shortening = 0.75;
 
@@ -32,10 +33,12 @@ std::vector<PoorElement> poor_elements(const FilledSurface& made) {
   return find_poor_elements(made.filled.mesh, made.surface, good_deg);
 }
 
-// Where many are, all the surface is too coarse for its walls.
-bool are_few(const std::vector<PoorElement>& poor, const FilledSurface& made) {
+// Where many are poor, all the surface must be far finer, which only a small one may be.
+bool can_be_mended(const std::vector<PoorElement>& poor, const FilledSurface& made) {
+  const bool small = static_cast<double>(made.surface.triangles.size()) < most_of_small / most_growth;
+  const double most = small ? 1 : many_poor;
   return !poor.empty() &&
-         static_cast<double>(poor.size()) <= most_poor * static_cast<double>(made.filled.mesh.tetrahedra.size());
+         static_cast<double>(poor.size()) <= most * static_cast<double>(made.filled.mesh.tetrahedra.size());
 }
 
 void shorten_around(const std::vector<PoorElement>& poor, SizeLimits& limits) {
@@ -53,7 +56,7 @@ bool worth_renewing(const SimplifyOptions& simplification, const TetrahedralizeO
       tetrahedralization.time_limit)
     return false;
   if (simplification.effort != Effort::high && made.surface.triangles.size() > most_triangles) return false;
-  return !is_good(smallest_dihedral(made), made) && are_few(poor_elements(made), made);
+  return !is_good(smallest_dihedral(made), made) && can_be_mended(poor_elements(made), made);
 }
 
 RenewalResult renew_where_poor(const SurfaceMesh& scan, const SimplifyOptions& simplification,
@@ -67,7 +70,7 @@ RenewalResult renew_where_poor(const SurfaceMesh& scan, const SimplifyOptions& s
   FilledSurface latest = made;
   while (result.rounds < most_rounds && !is_good(result.min_dihedral_after_deg, made)) {
     const std::vector<PoorElement> poor = poor_elements(latest);
-    if (!are_few(poor, latest)) break;
+    if (!can_be_mended(poor, latest)) break;
     shorten_around(poor, finer.limits);
     ++result.rounds;
     try {
@@ -80,7 +83,7 @@ RenewalResult renew_where_poor(const SurfaceMesh& scan, const SimplifyOptions& s
       break;
     }
     const double angle = smallest_dihedral(latest);
-    if (angle <= result.min_dihedral_after_deg) continue;
+    if (angle < result.min_dihedral_after_deg + worth_it_deg) continue;
     result.min_dihedral_after_deg = angle;
     result.gained = true;
     made = latest;

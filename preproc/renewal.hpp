@@ -18,7 +18,8 @@ struct FilledSurface {
 
 // Whether elements came out poor, with a dihedral angle below 24 degrees or 0.9 of what the surface allows (but at
 // least 10), and it is likely and affordable that another surface mends them: not with Effort::low, the `collapse`
-// method, a time limit or, unless the effort is high, above 50,000 triangles, nor where a tenth of all elements is poor.
+// method, a time limit or, unless the effort is high, above 50,000 triangles; nor where of 6,000 triangles or more a
+// tenth of all elements is poor.
 bool worth_renewing(const SimplifyOptions& simplification, const TetrahedralizeOptions& tetrahedralization,
                     const FilledSurface& made);
 
@@ -29,9 +30,10 @@ struct RenewalResult {
   double min_dihedral_after_deg = 0;  // never less
 };
 
-// `made` came of `scan` with these options. Replaced where a renewed one has a larger smallest dihedral angle, until
-// none is poor. Each round costs as much as `made` did; three at most, and with Effort::high six. At most twice as many
-// triangles, or 12,000. Throws Cancelled. The same result for any number of threads. Not guaranteed: a gain.
+// `made` came of `scan` with these options. Replaced where a renewed one has a smallest dihedral angle larger by a
+// degree, until none is poor. Each round costs as much as `made` did; three at most, and with Effort::high six. At most
+// twice as many triangles, or 12,000. Throws Cancelled. The same result for any number of threads. Not guaranteed: a
+// gain.
 RenewalResult renew_where_poor(const SurfaceMesh& scan, const SimplifyOptions& simplification,
                                const TetrahedralizeOptions& tetrahedralization, FilledSurface& made,
                                const Progress& progress = {});

@@ -6,6 +6,7 @@
 #include "preproc/volume/multi_face_removal.hpp"
 #include "preproc/volume/tet_complex.hpp"
 #include "preproc/volume/vertex_insertion.hpp"
+#include "preproc/volume/vertex_removal.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -122,7 +123,8 @@ class Optimisation {
       queue.pop();
       const TetComplex::Element& element = complex_.element(candidate.element);
       if (element.version != candidate.version || (element.tried & bit)) continue;
-      if (!mend_by_topology(candidate.element) && !(with_insertion && mend_by_insertion(candidate.element))) {
+      if (!mend_by_topology(candidate.element) &&
+          !(with_insertion && (mend_by_removal(candidate.element) || mend_by_insertion(candidate.element)))) {
         complex_.mark_tried(candidate.element, bit);
         continue;
       }
@@ -152,6 +154,13 @@ class Optimisation {
     }
     complex_.mark_tried(t, tried_topology);
     return false;
+  }
+
+  // Elsewhere the lattice's vertices have their room: nothing is gained then.
+  bool mend_by_removal(std::uint32_t t) {
+    if (complex_.quality(t) >= poor || !removal_.mend(complex_, t, insertion_gain)) return false;
+    ++result_.removals;
+    return true;
   }
 
   bool mend_by_insertion(std::uint32_t t) {
@@ -219,6 +228,7 @@ class Optimisation {
   Clock::time_point start_;
   OptimiseResult result_;
   VertexInsertion insertion_;
+  VertexRemoval removal_;
   std::vector<std::uint32_t> around_;
   StarFaces faces_;
   std::size_t insertions_left_ = 0;

@@ -26,16 +26,17 @@ OptimiseOptions optimise_options(Effort effort);
 
 struct OptimiseResult {
   double worst_before = 0, worst_after = 0;  // goal_quality
-  std::size_t edge_removals = 0, face_removals = 0, insertions = 0, relocations = 0;
+  std::size_t edge_removals = 0, face_removals = 0, removals = 0, insertions = 0, relocations = 0;
   bool stopped_by_time = false;
 };
 
 // Passes: topology, smoothing, topology, smoothing, topology, smoothing, max-min relocation; then, for each round,
-// topology with insertion and max-min relocation. Every move lifts the least quality of what it touches, so the
-// mesh's least quality never falls. At most a fortieth as many vertices are inserted as there are elements, so that
-// these grow by a sixth at most, and 40 on small meshes. The mesh is of first order with positive tetrahedra;
-// `boundary` and its nodes stay, in their order; nodes from `kept` on that lose all their elements vanish.
-// Deterministic, unless the time limit strikes. Throws Cancelled. Some 3 us per element on one thread.
+// topology with insertion and, where elements stay poor, removal of vertices, and max-min relocation. Every move lifts
+// the least quality of what it touches, so the mesh's least quality never falls. At most a fortieth as many vertices
+// are inserted as there are elements, so that these grow by a sixth at most, and 40 on small meshes. The mesh is of
+// first order with positive tetrahedra; `boundary` and its nodes stay, in their order; nodes from `kept` on that lose
+// all their elements vanish. Deterministic, unless the time limit strikes. Throws Cancelled. Some 3 us per element on
+// one thread.
 OptimiseResult optimise_tetrahedra(TetMesh& mesh, std::size_t kept, const OptimiseOptions& options = {},
                                    const Progress& progress = {});
 
