@@ -12,8 +12,8 @@ namespace {
 
 constexpr double good_deg = 24;
 constexpr double of_bound = 0.9;
-// A surface that allows no more is itself to be mended. TetGen aims at as much.
-constexpr double least_deg = 10;
+// A surface that allows less is itself to be mended if it can be.
+constexpr double least_deg = 20;
 constexpr double many_poor = 0.1;  // of the elements
 constexpr std::size_t most_triangles = 50000;
 constexpr double most_growth = 2, most_of_small = 12000;  // triangles, over the first surface's or absolute

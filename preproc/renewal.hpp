@@ -17,7 +17,7 @@ struct FilledSurface {
 };
 
 // Whether elements came out poor, with a dihedral angle below 24 degrees or 0.9 of what the surface allows (but at
-// least 10), and it is likely and affordable that another surface mends them: not with Effort::low, the `collapse`
+// least 20), and it is likely and affordable that another surface mends them: not with Effort::low, the `collapse`
 // method, a time limit or, unless the effort is high, above 50,000 triangles; nor where of 6,000 triangles or more a
 // tenth of all elements is poor.
 bool worth_renewing(const SimplifyOptions& simplification, const TetrahedralizeOptions& tetrahedralization,

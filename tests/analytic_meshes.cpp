@@ -76,8 +76,7 @@ SurfaceMesh slab_with_holes(int genus, double edge_length) {
 }
 
 SurfaceMesh block_with_fin(double edge_length) {
-  return voxel_surface({24, 8, 10}, edge_length * Vec3(1, 1, 0.625),
-                       [](int x, int, int z) { return z == 0 || x < 6; });
+  return voxel_surface({24, 8, 10}, edge_length * Vec3(1, 1, 0.625), [](int x, int, int z) { return z == 0 || x < 6; });
 }
 
 SurfaceMesh plate(const Vec3& size, double edge_length) {
@@ -177,6 +176,41 @@ SurfaceMesh cylinder(double radius, double height, int around, int along) {
       mesh.triangles.push_back({k + i, k + j, k + n + j});
       mesh.triangles.push_back({k + i, k + n + j, k + n + i});
     }
+  }
+  return mesh;
+}
+
+SurfaceMesh lens(double rim_angle_deg, int around, int rings) {
+  const double half = rim_angle_deg / 2 * std::numbers::pi / 180;
+  const double radius = 1 / std::sin(half), centre = 1 / std::tan(half);
+  const auto n = static_cast<std::uint32_t>(around);
+  SurfaceMesh mesh;
+  const auto add_ring = [&](int ring, double side) {
+    const double r = 1 - static_cast<double>(ring) / rings, z = std::sqrt(radius * radius - r * r) - centre;
+    for (int i = 0; i < around; ++i) {
+      const double angle = 2 * std::numbers::pi * (i + ring / 2.0) / around;
+      mesh.vertices.emplace_back(r * std::cos(angle), r * std::sin(angle), side * z);
+    }
+  };
+  add_ring(0, 1);
+  for (const double side : {1.0, -1.0}) {
+    const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+      mesh.triangles.push_back(side > 0 ? Triangle{a, b, c} : Triangle{a, c, b});
+    };
+    std::uint32_t outer = 0;
+    for (int ring = 1; ring < rings; ++ring) {
+      const auto inner = static_cast<std::uint32_t>(mesh.vertices.size());
+      add_ring(ring, side);
+      for (std::uint32_t i = 0; i < n; ++i) {
+        const std::uint32_t j = (i + 1) % n;
+        add(outer + i, outer + j, inner + i);
+        add(outer + j, inner + j, inner + i);
+      }
+      outer = inner;
+    }
+    const auto pole = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.emplace_back(0, 0, side * (radius - centre));
+    for (std::uint32_t i = 0; i < n; ++i) add(outer + i, outer + (i + 1) % n, pole);
   }
   return mesh;
 }

@@ -27,6 +27,10 @@ SurfaceMesh torus(double major_radius, double minor_radius, int around, int acro
 // height is split into `along` rings.
 SurfaceMesh cylinder(double radius, double height, int around, int along);
 
+// What two equal balls share: caps that meet in a circular rim of radius 1, at an interior angle of `rim_angle_deg`;
+// each cap of `rings` rings of `around` vertices.
+SurfaceMesh lens(double rim_angle_deg, int around, int rings);
+
 // An open rectangle in the plane z = 0, from the origin, split like a side of the box.
 SurfaceMesh sheet(double width, double depth, double edge_length);
 

@@ -7,6 +7,7 @@
 #include "preproc/volume/tet_complex.hpp"
 #include "preproc/volume/tet_quality.hpp"
 #include "preproc/volume/tetrahedralize.hpp"
+#include "preproc/volume/vertex_removal.hpp"
 #include "quality/tetrahedron_measures.hpp"
 #include "tests/analytic_meshes.hpp"
 
@@ -87,6 +88,41 @@ TEST(TetQuality, FlatElementsAreNotPositive) {
   EXPECT_LE(goal_quality({0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}), 0);
 }
 
+// A regular tetrahedron with a vertex inside, `height` above its first face.
+TetMesh split_tetrahedron(double height) {
+  TetMesh mesh;
+  mesh.nodes = {{1, 1, 1}, {-1, -1, 1}, {-1, 1, -1}, {1, -1, -1}};
+  const Vec3 base = (mesh.nodes[0] + mesh.nodes[1] + mesh.nodes[2]) / 3;
+  mesh.nodes.emplace_back(base + height * (mesh.nodes[3] - base).normalized());
+  mesh.tetrahedra = {{0, 1, 2, 4}, {0, 3, 1, 4}, {1, 3, 2, 4}, {0, 2, 3, 4}};
+  for (Tetrahedron& t : mesh.tetrahedra) {
+    const Vec3& a = mesh.nodes[t[0]];
+    if ((mesh.nodes[t[1]] - a).cross(mesh.nodes[t[2]] - a).dot(mesh.nodes[t[3]] - a) < 0) std::swap(t[0], t[1]);
+  }
+  mesh.boundary = find_boundary(mesh.tetrahedra);
+  return mesh;
+}
+
+TEST(VertexRemoval, RemovesAVertexWithoutRoomAndKeepsTheSurface) {
+  const TetMesh before = split_tetrahedron(0.01);
+  TetComplex complex(before);
+  ASSERT_TRUE(VertexRemoval().mend(complex, 0, 1.02));
+  const TetMesh after = complex.to_mesh(4);
+  EXPECT_EQ(after.tetrahedra.size(), 1u);
+  EXPECT_EQ(after.nodes.size(), 4u);
+  expect_same_boundary(before, after);
+  EXPECT_NEAR(total_volume(after), total_volume(before), 1e-14);
+}
+
+TEST(VertexRemoval, LeavesAVertexWhereNotEnoughIsGained) {
+  const TetMesh before = split_tetrahedron(0.5);
+  TetComplex complex(before);
+  const double without = goal_quality(before.nodes[0], before.nodes[1], before.nodes[2], before.nodes[3]);
+  ASSERT_GT(without, 0);
+  EXPECT_FALSE(VertexRemoval().mend(complex, 0, 1.01 * without / worst_quality(before)));
+  EXPECT_TRUE(VertexRemoval().mend(complex, 0, 0.99 * without / worst_quality(before)));
+}
+
 // A flat ring of n vertices, with a long axis through it: removing the axis is right for a short axis.
 TetMesh ring_mesh(std::uint32_t n, double half_axis) {
   TetMesh mesh;
@@ -96,6 +132,11 @@ TetMesh ring_mesh(std::uint32_t n, double half_axis) {
   for (std::uint32_t k = 0; k < n; ++k) mesh.tetrahedra.push_back({0, 1, 2 + k, 2 + (k + 1) % n});
   mesh.boundary = find_boundary(mesh.tetrahedra);
   return mesh;
+}
+
+TEST(VertexRemoval, LeavesVerticesOfTheSurface) {
+  TetComplex complex(ring_mesh(5, 0.01));
+  EXPECT_FALSE(VertexRemoval().mend(complex, 0, 1.02));
 }
 
 TEST(EdgeRemoval, RemovesALongAxisAndKeepsTheSurface) {

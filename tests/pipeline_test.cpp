@@ -97,6 +97,16 @@ TEST(Pipeline, MeshesASpikyPartWell) {
   EXPECT_GT(measure_tetrahedra(*result.volume_mesh).min_dihedral_deg, 24);
 }
 
+// Two elements side by side at the rim have half its angle, 20 degrees: one must fill it wherever the lattice has set a
+// vertex into the wedge.
+TEST(Pipeline, FillsAKnifeEdgeWithOneElementAcross) {
+  PipelineOptions options;
+  options.simplify->size = FaceRatio{0.3};
+  const PipelineResult result = run_pipeline(analytic::lens(40, 96, 24), options);
+  ASSERT_TRUE(result.volume_mesh.has_value());
+  EXPECT_GT(measure_tetrahedra(*result.volume_mesh).min_dihedral_deg, 24);
+}
+
 TEST(Pipeline, PutsTwoElementsAcrossAThinWall) {
   constexpr double thickness = 2;
   PipelineOptions options;
