@@ -18,6 +18,9 @@ constexpr double many_poor = 0.1;  // of the elements
 constexpr std::size_t most_triangles = 50000;
 constexpr double most_growth = 2, most_of_small = 12000;  // triangles, over the first surface's or absolute
 constexpr double worth_it_deg = 1;
+// Triangles of all rounds together, so that small surfaces have many and large ones few.
+constexpr double most_work = 60000, most_work_of_high_effort = 300000;
+constexpr int fewest_rounds = 2, most_rounds_of_small = 8;
 // Around a poor element: over its longest edge, and of the surface's edges there, by how poor it is.
 constexpr double reach = 1.5, most_shortening = 0.5, least_shortening = 0.75;
 
@@ -39,6 +42,11 @@ bool can_be_mended(const std::vector<PoorElement>& poor, const FilledSurface& ma
   const double most = small ? 1 : many_poor;
   return !poor.empty() &&
          static_cast<double>(poor.size()) <= most * static_cast<double>(made.filled.mesh.tetrahedra.size());
+}
+
+int rounds_for(std::size_t triangles, Effort effort) {
+  const double budget = effort == Effort::high ? most_work_of_high_effort : most_work;
+  return std::clamp(static_cast<int>(budget / static_cast<double>(triangles)), fewest_rounds, most_rounds_of_small);
 }
 
 void shorten_around(const std::vector<PoorElement>& poor, SizeLimits& limits) {
@@ -64,7 +72,7 @@ RenewalResult renew_where_poor(const SurfaceMesh& scan, const SimplifyOptions& s
                                const Progress& progress) {
   RenewalResult result;
   result.min_dihedral_before_deg = result.min_dihedral_after_deg = smallest_dihedral(made);
-  const int most_rounds = simplification.effort == Effort::high ? 6 : 3;
+  const int most_rounds = rounds_for(made.surface.triangles.size(), simplification.effort);
   const double most = std::max(most_growth * static_cast<double>(made.surface.triangles.size()), most_of_small);
   SimplifyOptions finer = simplification;
   FilledSurface latest = made;

@@ -24,10 +24,10 @@ constexpr double least_shortening = 0.75, most_shortening = 0.5;
 constexpr double reach = 1.5;               // around it, over its longest edge
 constexpr double gradation_around_bad = 2;  // over the surface's
 constexpr int most_renewals = 11;
-// In a row, without a gain that is worth it; for many triangles none.
-constexpr int most_in_vain = 3;
+// In a row, without a gain that is worth it: of few triangles, of many, of very many.
+constexpr int most_in_vain = 3, most_in_vain_of_many = 1, most_in_vain_of_very_many = 0;
 constexpr double worth_it_deg = 0.5;
-constexpr std::size_t many_triangles = 5000;
+constexpr std::size_t many_triangles = 5000, very_many_triangles = 20000;
 constexpr double good_of_many_deg = 17;   // what the tetrahedra's optimisation copes with, where time matters
 constexpr double room_for_places = 1.05;  // over the triangles wanted
 // Of the triangles, that are bad.
@@ -174,6 +174,12 @@ void shorten_around(const std::vector<BadPlace>& bad, const SurfaceMesh& scan, s
   }
 }
 
+int patience(std::size_t triangles) {
+  return triangles < many_triangles        ? most_in_vain
+         : triangles < very_many_triangles ? most_in_vain_of_many
+                                           : most_in_vain_of_very_many;
+}
+
 }  // namespace
 
 Candidate make_shaped_surface(PreparedScan& scan, const SizingOptions& sizing, const SimplifyOptions& options,
@@ -218,7 +224,7 @@ Candidate make_shaped_surface(PreparedScan& scan, const SizingOptions& sizing, c
     if (options.method != SimplifyMethod::lattice || (defects.empty() && !is_other_part) || renewal == most_renewals)
       break;
     if (triangles >= many_triangles && !lattice_failed && defects.sharpest() >= good_of_many_deg) break;
-    if (in_vain > (triangles < many_triangles ? most_in_vain : 0)) break;
+    if (in_vain > patience(triangles)) break;
 
     if (length.empty()) length = scan.wanted_lengths(sizing);
     // What cannot be kept but by smaller triangles everywhere is not asked for again where few are bad without it.
