@@ -118,14 +118,15 @@ void describe(const TetrahedralizeResult& result, StageRecord& record) {
   if (result.optimised.stopped_by_time) record.remarks.push_back("the time limit ended the optimisation early");
 }
 
-// What was gained, and of the mesh that stands now the same figures as of the first.
+// What was gained, and the same figures of the mesh that stands now as of the first.
 void describe(const RenewalResult& renewal, const FilledSurface& made, StageRecord& record) {
   if (renewal.gained) describe(made.filled, record);
   record.changes.insert(record.changes.begin(), {{"surfaces_made", static_cast<double>(renewal.rounds)},
                                                  {"min_dihedral_before_deg", renewal.min_dihedral_before_deg},
                                                  {"min_dihedral_after_deg", renewal.min_dihedral_after_deg},
                                                  {"faces_after", static_cast<double>(made.surface.triangles.size())}});
-  if (!made.simplified.size_remark.empty() && renewal.gained) record.remarks.push_back(made.simplified.size_remark);
+  if (made.simplified.largest_deviation > 0)
+    record.changes.emplace_back("largest_deviation", made.simplified.largest_deviation);
 }
 
 // Between two sides whose triangles are as wide as half of the wall there are nodes everywhere only if those inside are
