@@ -31,9 +31,9 @@ struct RenewalResult {
 };
 
 // `made` came of `scan` with these options. Replaced where a renewed one has a smallest dihedral angle larger by a
-// degree, until none is poor. Each round costs as much as `made` did, or a few times that: two to six of them, small
-// surfaces more, and no more than three in a row that gain nothing. At most twice as many triangles, or 12,000. Throws
-// Cancelled. The same result for any number of threads. Not guaranteed: a gain.
+// degree, until none is poor. Each round costs as much as `made` did; three at most, and with Effort::high six. At most
+// twice as many triangles, or 12,000. Throws Cancelled. The same result for any number of threads. Not guaranteed: a
+// gain.
 RenewalResult renew_where_poor(const SurfaceMesh& scan, const SimplifyOptions& simplification,
                                const TetrahedralizeOptions& tetrahedralization, FilledSurface& made,
                                const Progress& progress = {});
