@@ -16,6 +16,7 @@
 #include "preproc/mesh/read_surface.hpp"
 #include "preproc/pipeline.hpp"
 #include "preproc/volume/fill_regions.hpp"
+#include "preproc/volume/poor_elements.hpp"
 #include "quality/tetrahedron_measures.hpp"
 #include "quality/triangle_measures.hpp"
 #include "tests/analytic_meshes.hpp"
@@ -216,6 +217,9 @@ void large(std::size_t faces, const std::filesystem::path& file) {
   const double start = processor_seconds();
   const TetrahedralizeResult result = tetrahedralize(surface);
   row("scan2fea", result.mesh, result.estimated_tetrahedra, processor_seconds() - start);
+  constexpr double good_deg = 24;
+  std::printf("\n%zu of scan2fea's elements at the surface have less than %.0f degrees\n",
+              find_poor_elements(result.mesh, surface, good_deg).size(), good_deg);
 }
 
 // Where the worst element is and what it had to work with: surface triangles that are bad themselves, or sides of the
