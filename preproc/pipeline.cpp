@@ -120,7 +120,7 @@ void describe(const TetrahedralizeResult& result, StageRecord& record) {
 
 // What was gained, and the same figures of the mesh that stands now as of the first.
 void describe(const RenewalResult& renewal, const FilledSurface& made, StageRecord& record) {
-  if (renewal.gained) describe(made.filled, record);
+  if (renewal.gained()) describe(made.filled, record);
   record.changes.insert(record.changes.begin(), {{"surfaces_made", static_cast<double>(renewal.rounds)},
                                                  {"min_dihedral_before_deg", renewal.min_dihedral_before_deg},
                                                  {"min_dihedral_after_deg", renewal.min_dihedral_after_deg},

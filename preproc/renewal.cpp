@@ -36,9 +36,8 @@ std::vector<PoorElement> poor_elements(const FilledSurface& made) {
 // Where many are poor, all the surface must be far finer, which only a small one may be.
 bool can_be_mended(const std::vector<PoorElement>& poor, const FilledSurface& made) {
   const bool small = static_cast<double>(made.surface.triangles.size()) < most_of_small / most_growth;
-  const double most = small ? 1 : many_poor;
-  return !poor.empty() &&
-         static_cast<double>(poor.size()) <= most * static_cast<double>(made.filled.mesh.tetrahedra.size());
+  return !poor.empty() && (small || static_cast<double>(poor.size()) <=
+                                        many_poor * static_cast<double>(made.filled.mesh.tetrahedra.size()));
 }
 
 void shorten_around(const std::vector<PoorElement>& poor, SizeLimits& limits) {
@@ -85,7 +84,6 @@ RenewalResult renew_where_poor(const SurfaceMesh& scan, const SimplifyOptions& s
     const double angle = smallest_dihedral(latest);
     if (angle < result.min_dihedral_after_deg + worth_it_deg) continue;
     result.min_dihedral_after_deg = angle;
-    result.gained = true;
     made = latest;
   }
   return result;

@@ -25,9 +25,9 @@ bool worth_renewing(const SimplifyOptions& simplification, const TetrahedralizeO
 
 struct RenewalResult {
   int rounds = 0;  // surfaces made
-  bool gained = false;
   double min_dihedral_before_deg = 0;
   double min_dihedral_after_deg = 0;  // never less
+  bool gained() const { return min_dihedral_after_deg > min_dihedral_before_deg; }
 };
 
 // `made` came of `scan` with these options. Replaced where a renewed one has a smallest dihedral angle larger by a

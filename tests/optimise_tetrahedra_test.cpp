@@ -94,11 +94,7 @@ TetMesh split_tetrahedron(double height) {
   mesh.nodes = {{1, 1, 1}, {-1, -1, 1}, {-1, 1, -1}, {1, -1, -1}};
   const Vec3 base = (mesh.nodes[0] + mesh.nodes[1] + mesh.nodes[2]) / 3;
   mesh.nodes.emplace_back(base + height * (mesh.nodes[3] - base).normalized());
-  mesh.tetrahedra = {{0, 1, 2, 4}, {0, 3, 1, 4}, {1, 3, 2, 4}, {0, 2, 3, 4}};
-  for (Tetrahedron& t : mesh.tetrahedra) {
-    const Vec3& a = mesh.nodes[t[0]];
-    if ((mesh.nodes[t[1]] - a).cross(mesh.nodes[t[2]] - a).dot(mesh.nodes[t[3]] - a) < 0) std::swap(t[0], t[1]);
-  }
+  mesh.tetrahedra = {{0, 1, 2, 4}, {0, 1, 4, 3}, {0, 4, 2, 3}, {4, 1, 2, 3}};
   mesh.boundary = find_boundary(mesh.tetrahedra);
   return mesh;
 }

@@ -38,7 +38,7 @@ TEST(Renewal, MendsElementsInAThinWall) {
   const double before = measure_tetrahedra(chain.made.filled.mesh).min_dihedral_deg;
   const RenewalResult result = renew_where_poor(chain.scan, chain.simplification, chain.tetrahedralization, chain.made);
   const TetSummary after = measure_tetrahedra(chain.made.filled.mesh);
-  EXPECT_TRUE(result.gained);
+  EXPECT_TRUE(result.gained());
   EXPECT_EQ(result.min_dihedral_before_deg, before);
   EXPECT_EQ(result.min_dihedral_after_deg, after.min_dihedral_deg);
   EXPECT_GT(after.min_dihedral_deg, 22);

@@ -104,7 +104,8 @@ class ShapeCheck {
     return 180;
   }
 
-  // Of the interior dihedral angle at an edge that is no crease: a fold of the triangles, not of the part.
+  // Of the interior dihedral angle at an edge that is no crease: a fold of the triangles, not of the part. At a crease
+  // the whole of it, which one element can fill, where that is too sharp.
   double half_wedge(std::uint32_t f, std::uint32_t k) const {
     const std::uint32_t g = neighbours_[f][k];
     const Triangle& t = mesh_.triangles[f];
