@@ -1,7 +1,7 @@
 #include "preproc/pipeline.hpp"
 
 #include "preproc/mesh/error.hpp"
-#include "preproc/renewal.hpp"
+#include "preproc/tetrahedra_search.hpp"
 #include "preproc/volume/mid_edge_nodes.hpp"
 
 #include <algorithm>

@@ -4,9 +4,9 @@
 #include "preproc/mesh/progress.hpp"
 #include "preproc/mesh/surface_mesh.hpp"
 #include "preproc/mesh/tet_mesh.hpp"
-#include "preproc/surface/enrich.hpp"
-#include "preproc/surface/repair.hpp"
-#include "preproc/surface/simplify.hpp"
+#include "preproc/surface/enrichment/enrich.hpp"
+#include "preproc/surface/repair/repair.hpp"
+#include "preproc/surface/simplification/simplify.hpp"
 #include "preproc/volume/tetrahedralize.hpp"
 
 #include <cstdint>

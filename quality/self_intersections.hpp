@@ -29,8 +29,8 @@ std::vector<FacePair> find_self_intersections(const SurfaceMesh& mesh);
 // for the pass over the mesh, the rest by the number of `faces`.
 std::vector<FacePair> find_self_intersections(const SurfaceMesh& mesh, std::span<const std::uint32_t> faces);
 
-// The test of one pair, for stages that keep a surface sound step by step: whether two faces with corners among `points`
-// intersect in the sense above. Precondition: neither is collinear.
+// The test of one pair, for stages that keep a surface sound step by step: whether two faces with corners among
+// `points` intersect in the sense above. Precondition: neither is collinear.
 bool faces_intersect(const std::vector<Vec3>& points, const Triangle& s, const Triangle& t);
 
 // Exact.

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
 namespace scan2fea {
 namespace {
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double degrees = 180 / std::numbers::pi;
 
 // Partly sorts the values; p rises from call to call, so each continues where the last one stopped.
@@ -23,6 +25,19 @@ double percentile(std::vector<double>& values, std::size_t& sorted_up_to, double
 }
 
 }  // namespace
+
+double edge_ratio(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const double ab = (b - a).squaredNorm(), bc = (c - b).squaredNorm(), ca = (a - c).squaredNorm();
+  const double shortest = std::min({ab, bc, ca});
+  return shortest > 0 ? std::sqrt(std::max({ab, bc, ca}) / shortest) : infinity;
+}
+
+double eta(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const double doubled_area = (b - a).cross(c - a).norm();
+  const double squares = (b - a).squaredNorm() + (c - b).squaredNorm() + (a - c).squaredNorm();
+  // Rounding can push an equilateral triangle below 1, where M ln M would be negative.
+  return doubled_area > 0 ? std::max(1.0, squares / (2 * std::numbers::sqrt3 * doubled_area)) : infinity;
+}
 
 std::optional<TriangleShape> measure_triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
   // Side k lies opposite corner k.
@@ -55,6 +70,14 @@ std::optional<TriangleShape> measure_triangle(const Vec3& a, const Vec3& b, cons
 
 double angle_between(const Vec3& u, const Vec3& v) {
   return std::atan2(u.cross(v).norm(), u.dot(v));
+}
+
+double angle_deg(const Vec3& apex, const Vec3& a, const Vec3& b) {
+  return angle_between(a - apex, b - apex) * 180 / std::numbers::pi;
+}
+
+double smallest_angle_deg(const Vec3& a, const Vec3& b, const Vec3& c) {
+  return std::min({angle_deg(a, b, c), angle_deg(b, c, a), angle_deg(c, a, b)});
 }
 
 double interior_angle(const Vec3& first_normal, const Vec3& second_normal, const Vec3& along) {

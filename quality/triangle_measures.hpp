@@ -10,6 +10,7 @@
 
 #include "preproc/mesh/surface_mesh.hpp"
 
+#include <cmath>
 #include <cstddef>
 #include <optional>
 
@@ -22,15 +23,35 @@ struct TriangleShape {
   double radius_ratio;  // 2 * inscribed radius / circumscribed radius: 1 for equilateral, 0 for zero area
 };
 
+// Longest edge over shortest edge, the paper's AR. Infinite where two corners coincide; 2 at most for a flat triangle
+// with its apex in the middle, so that it does not bar degenerate triangles.
+double edge_ratio(const Vec3& a, const Vec3& b, const Vec3& c);
+
+// eta = (l1^2 + l2^2 + l3^2) / (4 sqrt(3) area) >= 1. Infinite for every degenerate triangle: a barrier.
+double eta(const Vec3& a, const Vec3& b, const Vec3& c);
+
 // Nothing for a triangle of zero area.
 std::optional<TriangleShape> measure_triangle(const Vec3& a, const Vec3& b, const Vec3& c);
 
 // Radians, 0 to pi; accurate to the last digits for small ones, too. 0 where one of them has no length.
 double angle_between(const Vec3& u, const Vec3& v);
 
+// At the apex between two other points.
+double angle_deg(const Vec3& apex, const Vec3& a, const Vec3& b);
+
+double smallest_angle_deg(const Vec3& a, const Vec3& b, const Vec3& c);
+
 // The angle between two triangles on the side that their normals point away from, radians, (0, 2 pi): that of the body,
 // if they face outwards. `along`: unit, the edge that they share, as the first one turns; the normals have any length.
 double interior_angle(const Vec3& first_normal, const Vec3& second_normal, const Vec3& along);
+
+// sqrt(3)/4: of a triangle with edges of length 1.
+inline constexpr double equilateral_area = 0.43301270189221932;
+
+// Of so many equilateral triangles that have this area together.
+inline double equilateral_edge(double area, double triangles) {
+  return std::sqrt(area / (equilateral_area * triangles));
+}
 
 struct TriangleSummary {
   std::size_t measured = 0;    // triangles in the figures below; where it is 0, so are they

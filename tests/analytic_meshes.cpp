@@ -76,8 +76,7 @@ SurfaceMesh slab_with_holes(int genus, double edge_length) {
 }
 
 SurfaceMesh block_with_fin(double edge_length) {
-  return voxel_surface({24, 8, 10}, edge_length * Vec3(1, 1, 0.625),
-                       [](int x, int, int z) { return z == 0 || x < 6; });
+  return voxel_surface({24, 8, 10}, edge_length * Vec3(1, 1, 0.625), [](int x, int, int z) { return z == 0 || x < 6; });
 }
 
 SurfaceMesh plate(const Vec3& size, double edge_length) {

@@ -1,7 +1,8 @@
-#include "preproc/surface/clear_moves.hpp"
+#include "preproc/surface/kernel/clear_moves.hpp"
 
-#include "preproc/surface/collapse.hpp"
-#include "preproc/surface/face_boxes.hpp"
+#include "preproc/surface/collapse/collapse.hpp"
+#include "preproc/surface/fit/preserve_volume.hpp"
+#include "preproc/surface/kernel/face_boxes.hpp"
 #include "quality/self_intersections.hpp"
 #include "quality/validity.hpp"
 #include "tests/analytic_meshes.hpp"

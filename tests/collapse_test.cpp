@@ -1,9 +1,10 @@
-#include "preproc/surface/collapse.hpp"
+#include "preproc/surface/collapse/collapse.hpp"
 
 #include "preproc/mesh/error.hpp"
-#include "preproc/surface/halfedge_mesh.hpp"
-#include "preproc/surface/indexed_heap.hpp"
+#include "preproc/surface/kernel/halfedge_mesh.hpp"
+#include "preproc/surface/kernel/indexed_heap.hpp"
 #include "quality/self_intersections.hpp"
+#include "quality/triangle_measures.hpp"
 #include "quality/triangle_tree.hpp"
 #include "quality/validity.hpp"
 #include "tests/analytic_meshes.hpp"

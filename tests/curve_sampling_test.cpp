@@ -1,6 +1,7 @@
-#include "preproc/surface/curve_sampling.hpp"
+#include "preproc/surface/features/curve_sampling.hpp"
 
-#include "preproc/surface/cut_surface.hpp"
+#include "preproc/surface/features/find_features.hpp"
+#include "preproc/surface/kernel/cut_surface.hpp"
 #include "tests/analytic_meshes.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "preproc/surface/error_sizing.hpp"
+#include "preproc/surface/simplification/error_sizing.hpp"
 
 #include "analytic_meshes.hpp"
 

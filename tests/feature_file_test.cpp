@@ -1,7 +1,7 @@
-#include "preproc/surface/feature_file.hpp"
+#include "preproc/surface/features/feature_file.hpp"
 
 #include "preproc/mesh/error.hpp"
-#include "preproc/surface/match_features.hpp"
+#include "preproc/surface/features/match_features.hpp"
 #include "tests/analytic_meshes.hpp"
 #include "tests/temporary_folder.hpp"
 

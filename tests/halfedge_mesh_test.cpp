@@ -1,4 +1,4 @@
-#include "preproc/surface/halfedge_mesh.hpp"
+#include "preproc/surface/kernel/halfedge_mesh.hpp"
 
 #include "preproc/mesh/error.hpp"
 #include "tests/analytic_meshes.hpp"

@@ -1,8 +1,8 @@
-#include "preproc/surface/lattice.hpp"
+#include "preproc/surface/lattice/lattice.hpp"
 
 #include "preproc/mesh/error.hpp"
-#include "preproc/surface/components.hpp"
-#include "preproc/surface/halfedge_mesh.hpp"
+#include "preproc/surface/kernel/components.hpp"
+#include "preproc/surface/kernel/halfedge_mesh.hpp"
 #include "tests/analytic_meshes.hpp"
 
 #include <gtest/gtest.h>

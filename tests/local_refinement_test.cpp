@@ -1,8 +1,8 @@
-#include "preproc/surface/local_refinement.hpp"
+#include "preproc/surface/mending/local_refinement.hpp"
 
 #include "analytic_meshes.hpp"
 #include "preproc/mesh/error.hpp"
-#include "preproc/surface/feature_net.hpp"
+#include "preproc/surface/features/feature_net.hpp"
 #include "quality/deviation_bound.hpp"
 #include "quality/self_intersections.hpp"
 #include "quality/validity.hpp"

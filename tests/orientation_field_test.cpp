@@ -1,8 +1,8 @@
-#include "preproc/surface/orientation_field.hpp"
+#include "preproc/surface/lattice/orientation_field.hpp"
 
-#include "preproc/surface/position_field.hpp"
-#include "preproc/surface/scale_relaxation.hpp"
-#include "preproc/surface/spatial_order.hpp"
+#include "preproc/surface/kernel/spatial_order.hpp"
+#include "preproc/surface/lattice/position_field.hpp"
+#include "preproc/surface/lattice/scale_relaxation.hpp"
 #include "tests/analytic_meshes.hpp"
 
 #include <gtest/gtest.h>

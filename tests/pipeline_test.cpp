@@ -2,7 +2,7 @@
 // were asked for.
 #include "preproc/pipeline.hpp"
 
-#include "preproc/surface/adjacency.hpp"
+#include "preproc/surface/kernel/adjacency.hpp"
 #include "quality/tetrahedron_measures.hpp"
 #include "tests/analytic_meshes.hpp"
 

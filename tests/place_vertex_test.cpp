@@ -1,4 +1,4 @@
-#include "preproc/surface/place_vertex.hpp"
+#include "preproc/surface/placement/place_vertex.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "preproc/surface/position_field.hpp"
+#include "preproc/surface/lattice/position_field.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "preproc/surface/preserve_volume.hpp"
+#include "preproc/surface/fit/preserve_volume.hpp"
 
 #include "analytic_meshes.hpp"
 #include "preproc/mesh/error.hpp"

@@ -1,6 +1,6 @@
 // Repair of the real scans: what is wrong with them is known and gets mended, and all else stays as it was.
 #include "preproc/mesh/read_surface.hpp"
-#include "preproc/surface/repair.hpp"
+#include "preproc/surface/repair/repair.hpp"
 #include "quality/self_intersections.hpp"
 #include "quality/validity.hpp"
 #include "tests/scans.hpp"

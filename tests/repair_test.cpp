@@ -1,4 +1,4 @@
-#include "preproc/surface/repair.hpp"
+#include "preproc/surface/repair/repair.hpp"
 
 #include "analytic_meshes.hpp"
 #include "quality/self_intersections.hpp"

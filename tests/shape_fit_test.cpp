@@ -1,12 +1,12 @@
-#include "preproc/surface/shape_fit.hpp"
+#include "preproc/surface/fit/shape_fit.hpp"
 
 #include "analytic_meshes.hpp"
 #include "preproc/mesh/error.hpp"
-#include "preproc/surface/features.hpp"
-#include "preproc/surface/lattice.hpp"
-#include "preproc/surface/locate.hpp"
-#include "preproc/surface/sample_surface.hpp"
-#include "preproc/surface/star_objective.hpp"
+#include "preproc/surface/features/find_features.hpp"
+#include "preproc/surface/fit/sample_surface.hpp"
+#include "preproc/surface/kernel/locate.hpp"
+#include "preproc/surface/lattice/lattice.hpp"
+#include "quality/triangle_measures.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <gmock/gmock.h>

@@ -1,9 +1,9 @@
 // What simplification must keep, whatever the shape: topology, volume, soundness, the number of triangles asked for.
-#include "preproc/surface/simplify.hpp"
+#include "preproc/surface/simplification/simplify.hpp"
 
 #include "preproc/mesh/error.hpp"
-#include "preproc/surface/adjacency.hpp"
-#include "preproc/surface/components.hpp"
+#include "preproc/surface/kernel/adjacency.hpp"
+#include "preproc/surface/kernel/components.hpp"
 #include "quality/deviation_bound.hpp"
 #include "quality/self_intersections.hpp"
 #include "quality/triangle_measures.hpp"

@@ -1,8 +1,8 @@
-#include "preproc/surface/size_limits.hpp"
+#include "preproc/surface/sizing/size_limits.hpp"
 
 #include "preproc/mesh/error.hpp"
-#include "preproc/surface/simplify.hpp"
-#include "preproc/surface/sizing_field.hpp"
+#include "preproc/surface/simplification/simplify.hpp"
+#include "preproc/surface/sizing/sizing_field.hpp"
 #include "quality/validity.hpp"
 #include "tests/analytic_meshes.hpp"
 

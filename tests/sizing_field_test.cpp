@@ -1,4 +1,4 @@
-#include "preproc/surface/sizing_field.hpp"
+#include "preproc/surface/sizing/sizing_field.hpp"
 
 #include "preproc/mesh/error.hpp"
 #include "tests/analytic_meshes.hpp"

@@ -1,4 +1,6 @@
-#include "preproc/surface/star_objective.hpp"
+#include "preproc/surface/placement/star_objective.hpp"
+
+#include "quality/triangle_measures.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 #include "preproc/mesh/surface_mesh.hpp"
 
+#include "tests/analytic_meshes.hpp"
+
 #include <gtest/gtest.h>
 
 #include <numbers>
-
-#include "tests/analytic_meshes.hpp"
 
 namespace scan2fea {
 namespace {

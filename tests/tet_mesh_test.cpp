@@ -13,7 +13,9 @@ TetMesh two_tetrahedra() {
   return mesh;
 }
 
-TEST(TetMesh, SharedFaceIsNotBoundary) { EXPECT_EQ(two_tetrahedra().boundary.size(), 6U); }
+TEST(TetMesh, SharedFaceIsNotBoundary) {
+  EXPECT_EQ(two_tetrahedra().boundary.size(), 6U);
+}
 
 TEST(TetMesh, BoundaryEnclosesTheSumOfTheElements) {
   const TetMesh mesh = two_tetrahedra();

@@ -1,8 +1,9 @@
-#include "preproc/surface/wedges.hpp"
+#include "preproc/surface/mending/wedges.hpp"
 
-#include "preproc/surface/defects.hpp"
-#include "preproc/surface/refined_scan.hpp"
+#include "preproc/surface/mending/defects.hpp"
+#include "preproc/surface/sizing/split_long_edges.hpp"
 #include "quality/self_intersections.hpp"
+#include "quality/triangle_measures.hpp"
 #include "tests/analytic_meshes.hpp"
 
 #include <gtest/gtest.h>

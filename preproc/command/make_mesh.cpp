@@ -6,7 +6,7 @@
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/read_surface.hpp"
 #include "preproc/mesh/write_surface.hpp"
-#include "preproc/surface/feature_file.hpp"
+#include "preproc/surface/features/feature_file.hpp"
 
 namespace scan2fea::command {
 namespace {

@@ -1,10 +1,10 @@
 // How a long computation tells how far it is, and how it is asked to stop.
 #pragma once
 
+#include "preproc/mesh/error.hpp"
+
 #include <functional>
 #include <string_view>
-
-#include "preproc/mesh/error.hpp"
 
 namespace scan2fea {
 

@@ -1,9 +1,9 @@
 // Reads STL (ASCII, binary, several solids), OBJ, PLY (ASCII, both byte orders, polygons, triangle strips) and OFF.
 #pragma once
 
-#include <filesystem>
-
 #include "preproc/mesh/surface_mesh.hpp"
+
+#include <filesystem>
 
 namespace scan2fea {
 

@@ -1,11 +1,11 @@
 // The tetrahedral mesh that is exported to solvers.
 #pragma once
 
+#include "preproc/mesh/surface_mesh.hpp"
+
 #include <array>
 #include <cstdint>
 #include <vector>
-
-#include "preproc/mesh/surface_mesh.hpp"
 
 namespace scan2fea {
 
@@ -14,8 +14,7 @@ using MidEdgeNodes = std::array<std::uint32_t, 6>;
 
 // Edges of a tetrahedron in the order of the mid-edge nodes of Abaqus, CalculiX, Nastran and VTK: 12 23 13 14 24 34.
 // Gmsh swaps the last two; the exporter does that, nothing else needs to know.
-inline constexpr std::array<std::array<int, 2>, 6> tetrahedron_edges{
-    {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
+inline constexpr std::array<std::array<int, 2>, 6> tetrahedron_edges{{{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
 
 // Faces of a tetrahedron in Abaqus's order S1 = 1-2-3, S2 = 1-4-2, S3 = 2-4-3, S4 = 3-4-1. Seen from outside a
 // positive tetrahedron these are clockwise; `boundary_triangle` gives them counter-clockwise.

@@ -126,15 +126,19 @@ Writer writer_for(const std::filesystem::path& file) {
 
 }  // namespace
 
-bool is_surface_file(const std::filesystem::path& file) { return writer_for(file) != nullptr; }
+bool is_surface_file(const std::filesystem::path& file) {
+  return writer_for(file) != nullptr;
+}
 
-std::string_view known_surface_formats() { return ".stl, .obj, .ply or .off"; }
+std::string_view known_surface_formats() {
+  return ".stl, .obj, .ply or .off";
+}
 
 void write_surface(const SurfaceMesh& mesh, const std::filesystem::path& file) {
   const Writer write = writer_for(file);
   if (write == nullptr)
-    throw WrongUsage({"the extension of the output names no surface format", file.string(),
-                      lower_case_extension(file), std::string(known_surface_formats()), "one of these"});
+    throw WrongUsage({"the extension of the output names no surface format", file.string(), lower_case_extension(file),
+                      std::string(known_surface_formats()), "one of these"});
   OutputFile output(file);
   Buffer buffer(output.stream());
   write(mesh, buffer);

@@ -1,10 +1,10 @@
 // Writes STL (binary), OBJ, PLY (binary, little-endian, double) and OFF.
 #pragma once
 
+#include "preproc/mesh/surface_mesh.hpp"
+
 #include <filesystem>
 #include <string_view>
-
-#include "preproc/mesh/surface_mesh.hpp"
 
 namespace scan2fea {
 

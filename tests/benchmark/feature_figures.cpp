@@ -3,8 +3,7 @@
 // PART borders and edges whose faces' normals differ by 40 degrees or more, sampled finely; of RESULT by more than 25,
 // since its triangles bend creases a little.
 #include "preproc/mesh/read_surface.hpp"
-#include "preproc/surface/adjacency.hpp"
-#include "preproc/surface/feature_edge.hpp"
+#include "preproc/surface/kernel/adjacency.hpp"
 
 #include <algorithm>
 #include <array>

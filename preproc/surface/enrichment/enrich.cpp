@@ -1,0 +1,365 @@
+#include "preproc/surface/enrichment/enrich.hpp"
+
+#include "preproc/mesh/error.hpp"
+#include "preproc/surface/enrichment/side_normals.hpp"
+#include "preproc/surface/enrichment/surface_walk.hpp"
+#include "preproc/surface/kernel/delaunay_flips.hpp"
+#include "preproc/surface/kernel/halfedge_mesh.hpp"
+#include "preproc/surface/placement/place_vertex.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace scan2fea {
+namespace {
+
+using Index = HalfedgeMesh::Index;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double pi = std::numbers::pi;
+
+// In R_s; see the header.
+constexpr double placement_distance = 0.586;
+constexpr double separation = 0.414;
+
+// A vertex asks at most this often: sectors of 90 degrees are filled by four. Where more are asked for, the surface is
+// so bent that points put into a sector are not seen in it.
+constexpr std::uint8_t most_requests = 6;
+
+// Between the angles of coarse or noisy scans and the edges of parts.
+constexpr double crease_deg = 60;
+
+// Measured points whose side turns more than 60 degrees from the new point's tangent plane tell nothing of its height.
+constexpr double smallest_sample_cosine = 0.5;
+
+// Neighbours whose normals look away more than this are on another sheet.
+constexpr double smallest_neighbour_cosine = -0.2;
+
+void check(const EnrichOptions& options) {
+  const auto refuse = [](const char* what, double value, const char* limit) {
+    throw WrongUsage({.what = what, .where = {}, .value = std::to_string(value), .limit = limit, .advice = {}});
+  };
+  if (options.sampling_radius && !(*options.sampling_radius > 0 && std::isfinite(*options.sampling_radius)))
+    refuse("sampling radius is not positive", *options.sampling_radius, "> 0");
+  if (options.most_neighbours < 3 || options.most_neighbours > 20)
+    refuse("number of neighbours out of range", static_cast<double>(options.most_neighbours), "3 to 20");
+  if (!(options.empty_sector_deg >= 60 && options.empty_sector_deg <= 180))
+    refuse("empty sector out of range", options.empty_sector_deg, "60 to 180 degrees");
+}
+
+bool holds(const EnrichDomain& domain, const Vec3& p) {
+  if (const auto* box = std::get_if<BoundingBox>(&domain))
+    return (p.array() >= box->low.array()).all() && (p.array() <= box->high.array()).all();
+  if (const auto* ball = std::get_if<Ball>(&domain)) return (p - ball->centre).norm() <= ball->radius;
+  return true;
+}
+
+// Directions in a tangent plane, and which of its sectors of 60 degrees hold a point: where no two that adjoin are
+// empty, the points surround the origin.
+class TangentPlane {
+ public:
+  TangentPlane(const Vec3& origin, const Vec3& normal) : origin_(origin) {
+    Eigen::Index axis;
+    normal.cwiseAbs().minCoeff(&axis);
+    u_ = normal.cross(Vec3::Unit(axis)).normalized();
+    v_ = normal.cross(u_);
+  }
+  double angle(const Vec3& p) const { return std::atan2((p - origin_).dot(v_), (p - origin_).dot(u_)); }
+  Vec3 direction(double angle) const { return std::cos(angle) * u_ + std::sin(angle) * v_; }
+  void add(const Vec3& p) { filled_[static_cast<std::size_t>((angle(p) + pi) / (2 * pi) * 6) % 6] = true; }
+  bool surrounded() const {
+    for (std::size_t i = 0; i < 6; ++i)
+      if (!filled_[i] && !filled_[(i + 1) % 6]) return false;
+    return true;
+  }
+
+ private:
+  Vec3 origin_, u_, v_;
+  std::array<bool, 6> filled_{};
+};
+
+class Enricher {
+ public:
+  Enricher(const SurfaceMesh& mesh, const EnrichOptions& options)
+      : mesh_(mesh),
+        options_(options),
+        nearest_(mesh_),
+        normals_(mesh_, crease_deg),
+        original_count_(mesh_.vertex_slots()) {
+    for (Index v = 0; v < mesh_.vertex_slots(); ++v)
+      if (mesh_.is_alive(v) && holds(options.domain, mesh_.points[v])) domain_.push_back(v);
+    radius_ = options.sampling_radius ? *options.sampling_radius : default_radius(surface_area(mesh));
+    requests_.assign(mesh_.vertex_slots(), 0);
+    if (radius_ > 0) {
+      const double packed = std::numbers::sqrt3 / 2 * separation * separation * radius_ * radius_;
+      const double bound = std::min(2 * surface_area(mesh) / packed + 100, 1e9);
+      most_new_vertices_ = std::min(options.most_new_vertices, static_cast<std::size_t>(bound));
+    }
+  }
+
+  EnrichResult run(const Progress& progress) {
+    result_.sampling_radius = radius_;
+    std::vector<Index> waiting = domain_;
+    bool inserted = true;
+    while (inserted && !waiting.empty() && radius_ > 0) {
+      progress("enrich", 1 - static_cast<double>(waiting.size()) / static_cast<double>(domain_.size()));
+      ++result_.rounds;
+      inserted = false;
+      const std::size_t known = domain_.size();
+      std::vector<Index> not_content;
+      for (const Index v : waiting) {
+        const std::vector<double> gaps = empty_sectors(v);
+        if (gaps.empty()) continue;
+        not_content.push_back(v);
+        if (result_.added >= most_new_vertices_ || requests_[v] == most_requests) continue;
+        if (!fill_one_of(v, gaps)) continue;
+        ++requests_[v];
+        inserted = true;
+      }
+      waiting = std::move(not_content);
+      waiting.insert(waiting.end(), domain_.begin() + static_cast<std::ptrdiff_t>(known), domain_.end());
+    }
+    result_.domain_vertices = domain_.size();
+    for (const Index v : domain_) result_.content += empty_sectors(v).empty();
+    if (result_.content < result_.domain_vertices)
+      result_.stop = result_.added < options_.most_new_vertices ? EnrichStop::no_room : EnrichStop::too_many_vertices;
+    return result_;
+  }
+
+  SurfaceMesh take() const { return mesh_.to_surface(); }
+
+ private:
+  // Where half of the points crowd in a small part of the surface the median tells about that part alone; as many
+  // points spread evenly, in equilateral triangles, would have the other spacing.
+  double default_radius(double area) {
+    const auto points = static_cast<double>(std::max<std::size_t>(1, original_count_));
+    return std::max(1.5 * median_spacing(), std::sqrt(2 / std::numbers::sqrt3 * area / points));
+  }
+
+  double median_spacing() {
+    std::vector<double> spacing;
+    for (const Index v : domain_) {
+      std::size_t met = 0;
+      double sixth = infinity;
+      search_from(v, infinity, [&](Index, double distance) {
+        if (++met < 6) return true;
+        sixth = std::sqrt(distance);
+        return false;
+      });
+      if (std::isfinite(sixth)) spacing.push_back(sixth);
+    }
+    if (spacing.empty()) return 0;
+    const auto middle = spacing.begin() + static_cast<std::ptrdiff_t>(spacing.size() / 2);
+    std::nth_element(spacing.begin(), middle, spacing.end());
+    return *middle;
+  }
+
+  // Visits the vertices near v on its own sheet, v left out.
+  template <class Visit>
+  void search_from(Index v, double radius, Visit visit) {
+    const std::array<Index, 1> seed{v};
+    nearest_.search(
+        seed, mesh_.points[v], radius,
+        [&](Index w) { return normals_.mean(w).dot(normals_.mean(v)) > smallest_neighbour_cosine; },
+        [&](Index w, double distance) { return w == v || visit(w, distance); });
+  }
+
+  // The paper's importance function: the bisectors of the empty sectors, widest first, as angles in the plane of v;
+  // none where v is content.
+  std::vector<double> empty_sectors(Index v) {
+    const TangentPlane plane(mesh_.points[v], normals_.mean(v));
+    std::vector<double> angles;
+    search_from(v, radius_, [&](Index w, double) {
+      angles.push_back(plane.angle(mesh_.points[w]));
+      return angles.size() <= options_.most_neighbours;
+    });
+    if (angles.size() > options_.most_neighbours) return {};
+    if (angles.empty()) angles.push_back(plane.angle(far_end_of_longest_edge(v)));
+    if (mesh_.is_border_vertex(v)) fill_outside(v, plane, angles);
+    std::sort(angles.begin(), angles.end());
+
+    const double least = options_.empty_sector_deg * pi / 180;
+    std::vector<std::pair<double, double>> sectors;  // minus the width, bisector
+    for (std::size_t i = 0; i < angles.size(); ++i) {
+      const double next = i + 1 < angles.size() ? angles[i + 1] : angles[0] + 2 * pi;
+      if (next - angles[i] >= least) sectors.emplace_back(angles[i] - next, 0.5 * (angles[i] + next));
+    }
+    std::sort(sectors.begin(), sectors.end());
+    std::vector<double> bisectors;
+    for (const auto& [width, bisector] : sectors) bisectors.push_back(bisector);
+    return bisectors;
+  }
+
+  Vec3 far_end_of_longest_edge(Index v) const {
+    Vec3 far = mesh_.points[v];
+    double longest = 0;
+    mesh_.for_each_neighbour(v, [&](Index w) {
+      const double length = (mesh_.points[w] - mesh_.points[v]).norm();
+      if (length > longest) {
+        longest = length;
+        far = mesh_.points[w];
+      }
+    });
+    return far;
+  }
+
+  // Beyond a border nothing is missing: directions there count as taken.
+  void fill_outside(Index v, const TangentPlane& plane, std::vector<double>& angles) const {
+    Index last = HalfedgeMesh::none;
+    mesh_.for_each_neighbour(v, [&](Index w) { last = w; });
+    const double from = plane.angle(mesh_.points[last]);
+    double to = plane.angle(mesh_.points[mesh_.target(mesh_.outgoing(v))]);
+    if (to < from) to += 2 * pi;
+    for (double angle = from; angle < to; angle += 0.25 * pi) angles.push_back(std::remainder(angle, 2 * pi));
+    angles.push_back(std::remainder(to, 2 * pi));
+  }
+
+  bool fill_one_of(Index v, const std::vector<double>& bisectors) {
+    const TangentPlane plane(mesh_.points[v], normals_.mean(v));
+    for (const double angle : bisectors) {
+      const Vec3 direction = plane.direction(angle);
+      const auto base = walk_straight(mesh_, v, normals_.mean(v), direction, placement_distance * radius_);
+      if (base && insert(*base)) return true;
+    }
+    return false;
+  }
+
+  // Refused where another point is too near, or where a border edge would have to be split.
+  bool insert(SurfacePoint base) {
+    // Close to an edge the point goes onto it: a face of almost no height helps nobody.
+    Eigen::Index corner;
+    const bool on_edge = base.weights.minCoeff(&corner) < 0.1;
+    const Index edge = 3 * base.face + static_cast<Index>(corner + 1) % 3;
+    if (on_edge) {
+      if (mesh_.is_border(edge)) return false;
+      base.weights[corner] = 0;
+      base.weights /= base.weights.sum();
+    }
+    const Triangle t = mesh_.triangle(base.face);
+    Vec3 point = position(mesh_, base);
+    const Vec3 normal = normal_at(base);
+    if (!holds(options_.domain, point) || !has_room(t, point, normal, HalfedgeMesh::none)) return false;
+
+    const bool on_crease = on_edge && normals_.is_crease(mesh_, edge);
+    if (on_crease)
+      normals_.add(normal, normal_at(across(edge, base)));
+    else
+      normals_.add(normal);
+    const Index v = on_edge ? mesh_.split_edge(edge, point) : mesh_.split_face(base.face, point);
+    requests_.push_back(0);
+    domain_.push_back(v);
+    ++result_.added;
+    restore_delaunay(mesh_, v);
+    if (on_crease) {
+      // The two sides tell two heights, and neither is the crease's.
+      ++result_.not_lifted;
+      return true;
+    }
+    if (options_.place_by_entropy) point = mesh_.points[v] = placed_by_entropy(v);
+    lift(v, t, point);
+    return true;
+  }
+
+  // The same point of an edge, seen from the face beyond it.
+  SurfacePoint across(Index edge, const SurfacePoint& base) const {
+    const Index o = mesh_.opposite(edge);
+    SurfacePoint other{HalfedgeMesh::face(o), Vec3::Zero()};
+    other.weights[o % 3] = base.weights[HalfedgeMesh::next(edge) % 3];
+    other.weights[HalfedgeMesh::next(o) % 3] = base.weights[edge % 3];
+    return other;
+  }
+
+  Vec3 normal_at(const SurfacePoint& base) const {
+    const Triangle t = mesh_.triangle(base.face);
+    const Vec3 face = mesh_.area_vector(base.face).normalized();
+    Vec3 mean = Vec3::Zero();
+    for (std::size_t i = 0; i < 3; ++i) mean += base.weights[static_cast<int>(i)] * normals_.facing(t[i], face);
+    mean.normalize();
+    return mean.dot(face) > 0.3 ? mean : face;
+  }
+
+  bool has_room(const Triangle& seeds, const Vec3& point, const Vec3& normal, Index except) {
+    bool room = true;
+    nearest_.search(
+        seeds, point, separation * radius_,
+        [&](Index w) { return w != except && normals_.mean(w).dot(normal) > smallest_neighbour_cosine; },
+        [&](Index, double) { return room = false; });
+    return room;
+  }
+
+  Vec3 placed_by_entropy(Index v) {
+    std::vector<Vec3> link;
+    mesh_.for_each_neighbour(v, [&](Index w) { link.push_back(mesh_.points[w]); });
+    const PlaceVertexResult placed = place_vertex({mesh_.points[v], link}, star_normal(link));
+    const Triangle t = mesh_.triangle(HalfedgeMesh::face(mesh_.outgoing(v)));
+    return placed.feasible && has_room(t, placed.position, normals_.mean(v), v) ? placed.position : mesh_.points[v];
+  }
+
+  // To the height that the measured points around tell, unless it is not credible or would fold the star.
+  void lift(Index v, const Triangle& seeds, const Vec3& base) {
+    // With normals, three equations each for six unknowns; and from all sides: at the rim of a gap the nearest points
+    // all lie on one side of it.
+    // Beyond a thousand new points the measured ones are too far to tell.
+    constexpr std::size_t wanted_samples = 10, most_samples = 60, most_visits = 1000;
+    const Vec3 normal = normals_.mean(v);
+    TangentPlane sectors(base, normal);
+    samples_.clear();
+    double farthest = 0, closest = infinity;
+    std::size_t visits = 0;
+    nearest_.search(
+        seeds, base, infinity, [&](Index w) { return normals_.facing(w, normal).dot(normal) > smallest_sample_cosine; },
+        [&](Index w, double distance) {
+          if (++visits > most_visits) return false;
+          if (w >= original_count_) return true;
+          samples_.push_back({mesh_.points[w], normals_.facing(w, normal)});
+          sectors.add(mesh_.points[w]);
+          farthest = std::sqrt(distance);
+          closest = std::min(closest, farthest);
+          return samples_.size() < most_samples && (samples_.size() < wanted_samples || !sectors.surrounded());
+        });
+    // Wendland's weight is 0 at the radius: the farthest sample would not count.
+    const double height = lifted_height(options_.lifting, samples_, base, normal, 1.2 * farthest);
+    const Vec3 place = base + height * normal;
+    if (!(std::abs(height) <= 0.8 * closest) || folds(v, place) || !has_room(seeds, place, normal, v)) {
+      ++result_.not_lifted;
+      return;
+    }
+    mesh_.points[v] = place;
+    result_.largest_height = std::max(result_.largest_height, std::abs(height));
+  }
+
+  bool folds(Index v, const Vec3& place) const {
+    std::vector<Vec3> link;
+    mesh_.for_each_neighbour(v, [&](Index w) { link.push_back(mesh_.points[w]); });
+    return !is_star_feasible({place, link}, star_normal(link), PlaceVertexOptions{}.smallest_normal_cosine);
+  }
+
+  HalfedgeMesh mesh_;
+  const EnrichOptions& options_;
+  NearestOnSurface nearest_;
+  SideNormals normals_;  // of the scan at its vertices; of a new one, interpolated where it was put
+  std::size_t original_count_;
+  double radius_ = 0;
+  std::size_t most_new_vertices_ = 0;  // the option, or twice what packing leaves room for
+  std::vector<std::uint8_t> requests_;
+  std::vector<Index> domain_;
+  std::vector<SurfaceSample> samples_;
+  EnrichResult result_;
+};
+
+}  // namespace
+
+EnrichResult enrich(SurfaceMesh& mesh, const EnrichOptions& options, const Progress& progress) {
+  check(options);
+  Enricher enricher(mesh, options);
+  const EnrichResult result = enricher.run(progress);
+  mesh = enricher.take();
+  return result;
+}
+
+}  // namespace scan2fea

@@ -1,0 +1,198 @@
+#include "preproc/surface/fit/preserve_volume.hpp"
+
+#include "preproc/mesh/error.hpp"
+#include "preproc/surface/kernel/adjacency.hpp"
+#include "preproc/surface/kernel/nearest.hpp"
+#include "quality/self_intersections.hpp"
+#include "quality/validity.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <vector>
+
+namespace scan2fea {
+namespace {
+
+// Of a volume, that may be missing in the end: far above rounding, far below any other error.
+constexpr double largest_rest = 1e-9;
+
+using Components = std::vector<std::vector<std::uint32_t>>;  // triangle indices, by component
+
+// Component of every vertex by union-find, numbered in the order of first appearance among the triangles.
+std::vector<std::uint32_t> label_vertices(const SurfaceMesh& mesh, std::size_t& count) {
+  std::vector<std::uint32_t> parent(mesh.vertices.size());
+  std::iota(parent.begin(), parent.end(), 0U);
+  const auto root = [&](std::uint32_t v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  for (const Triangle& t : mesh.triangles) {
+    parent[root(t[1])] = root(t[0]);
+    parent[root(t[2])] = root(t[0]);
+  }
+  std::vector<std::uint32_t> label(mesh.vertices.size(), no_face);
+  count = 0;
+  for (const Triangle& t : mesh.triangles) {
+    std::uint32_t& of_root = label[root(t[0])];
+    if (of_root == no_face) of_root = static_cast<std::uint32_t>(count++);
+  }
+  for (std::uint32_t v = 0; v < label.size(); ++v) label[v] = label[root(v)];
+  return label;
+}
+
+Components components_of(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& label, std::size_t count) {
+  Components components(count);
+  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) components[label[mesh.triangles[f][0]]].push_back(f);
+  return components;
+}
+
+// About `centre`, so that far-off coordinates cost no digits.
+double volume_of(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& faces, const Vec3& centre) {
+  double six_volumes = 0;
+  for (const std::uint32_t f : faces) {
+    const Triangle& t = mesh.triangles[f];
+    const Vec3 a = mesh.vertices[t[0]] - centre;
+    six_volumes += a.dot((mesh.vertices[t[1]] - centre).cross(mesh.vertices[t[2]] - centre));
+  }
+  return six_volumes / 6;
+}
+
+// Per component of `mesh` the component of `like` that most of its vertices lie nearest to; empty where two share one.
+std::vector<std::uint32_t> pair_components(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& label,
+                                           std::size_t count, const SurfaceMesh& like,
+                                           const std::vector<std::uint32_t>& like_label, std::size_t like_count) {
+  if (count != like_count) return {};
+  if (count == 1) return {0};
+  const double spacing = std::sqrt(surface_area(like) / static_cast<double>(like.triangles.size()));
+  const std::vector<std::uint32_t> nearest = nearest_vertices(mesh.vertices, vertex_normals(mesh), like, spacing);
+  std::vector<std::vector<std::uint32_t>> votes(count, std::vector<std::uint32_t>(like_count, 0));
+  for (std::uint32_t v = 0; v < label.size(); ++v) {
+    if (label[v] != no_face) ++votes[label[v]][like_label[nearest[v]]];
+  }
+  std::vector<std::uint32_t> pair(count);
+  std::vector<bool> taken(like_count, false);
+  for (std::size_t c = 0; c < count; ++c) {
+    pair[c] = static_cast<std::uint32_t>(std::max_element(votes[c].begin(), votes[c].end()) - votes[c].begin());
+    if (taken[pair[c]]) return {};
+    taken[pair[c]] = true;
+  }
+  return pair;
+}
+
+// Newton's method on the volume as a function of the shift; its derivative is the area swept by the moving vertices.
+// The normals stay those of the start, so the volume is a cubic, nearly linear one, and three or four steps reach the
+// rounding of the coordinates. Returns the shift.
+double shift_to_volume(SurfaceMesh& mesh, const std::vector<std::uint32_t>& faces, double volume, const Vec3& centre,
+                       const std::vector<Vec3>& directions) {
+  std::vector<std::uint32_t> vertices;
+  double doubled_area = 0;
+  double edges = 0;
+  for (const std::uint32_t f : faces) {
+    const Triangle& t = mesh.triangles[f];
+    vertices.insert(vertices.end(), t.begin(), t.end());
+    doubled_area += area_vector(mesh, t).norm();
+    edges += (mesh.vertices[t[1]] - mesh.vertices[t[0]]).norm() / static_cast<double>(faces.size());
+  }
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+
+  constexpr int most_steps = 8;
+  double total = 0;
+  for (int step = 0; step < most_steps; ++step) {
+    const double missing = volume - volume_of(mesh, faces, centre);
+    double swept = 0;
+    for (const std::uint32_t f : faces) {
+      const Triangle& t = mesh.triangles[f];
+      swept += area_vector(mesh, t).dot(directions[t[0]] + directions[t[1]] + directions[t[2]]) / 6;
+    }
+    if (!(swept > 0)) break;
+    const double shift = missing / swept;
+    total += shift;
+    if (std::abs(total) > edges) {
+      throw NotMeshable({.what = "volume cannot be kept",
+                         .where = "component of " + std::to_string(faces.size()) + " triangles",
+                         .value = "shift of " + std::to_string(total),
+                         .limit = "mean edge length " + std::to_string(edges),
+                         .advice = "use more triangles"});
+    }
+    for (const std::uint32_t v : vertices) mesh.vertices[v] += shift * directions[v];
+    if (std::abs(missing) <= 1e-14 * doubled_area * edges) break;
+  }
+  // No free vertex, or a surface so coarse that its normals do not tell which way is out.
+  const double missing = volume - volume_of(mesh, faces, centre);
+  if (std::abs(missing) > largest_rest * std::abs(volume)) {
+    throw NotMeshable({.what = "volume cannot be kept",
+                       .where = "component of " + std::to_string(faces.size()) + " triangles",
+                       .value = std::to_string(volume - missing),
+                       .limit = std::to_string(volume),
+                       .advice = "use more triangles"});
+  }
+  return total;
+}
+
+}  // namespace
+
+VolumeShift preserve_volume(SurfaceMesh& mesh, const SurfaceMesh& like, const VertexConstraints& constraints) {
+  if (mesh.triangles.empty() || like.triangles.empty()) return {};
+  if (!check_validity(mesh).encloses_volume() || !check_validity(like).encloses_volume()) {
+    throw NotMeshable({.what = "no volume to keep",
+                       .where = "",
+                       .value = "an open surface",
+                       .limit = "closed and oriented",
+                       .advice = "repair the scan, or leave its holes open and the volume unkept"});
+  }
+  std::size_t count = 0;
+  std::size_t like_count = 0;
+  const std::vector<std::uint32_t> label = label_vertices(mesh, count);
+  const std::vector<std::uint32_t> like_label = label_vertices(like, like_count);
+  Components components = components_of(mesh, label, count);
+  Components like_components = components_of(like, like_label, like_count);
+  std::vector<std::uint32_t> pair = pair_components(mesh, label, count, like, like_label, like_count);
+  if (pair.empty()) {
+    components.assign(1, std::vector<std::uint32_t>(mesh.triangles.size()));
+    like_components.assign(1, std::vector<std::uint32_t>(like.triangles.size()));
+    std::iota(components[0].begin(), components[0].end(), 0U);
+    std::iota(like_components[0].begin(), like_components[0].end(), 0U);
+    pair = {0};
+  }
+  const BoundingBox box = bounding_box(like.vertices);
+  const Vec3 centre = 0.5 * (box.low + box.high);
+  std::vector<Vec3> directions = vertex_normals(mesh);
+  for (std::size_t v = 0; v < constraints.size(); ++v) {
+    if (constraints[v] == VertexConstraint::fixed) directions[v].setZero();
+  }
+
+  VolumeShift result{0, components.size()};
+  for (std::size_t c = 0; c < components.size(); ++c) {
+    const double volume = volume_of(like, like_components[pair[c]], centre);
+    const double shift = shift_to_volume(mesh, components[c], volume, centre, directions);
+    result.largest_displacement = std::max(result.largest_displacement, std::abs(shift));
+  }
+  return result;
+}
+
+bool preserve_volume_clear(SurfaceMesh& mesh, const SurfaceMesh& like, VertexConstraints constraints) {
+  constexpr int trials = 10;
+  constraints.resize(mesh.vertices.size(), VertexConstraint::free);
+  for (int trial = 0; trial < trials; ++trial) {
+    SurfaceMesh shifted = mesh;
+    try {
+      preserve_volume(shifted, like, constraints);
+    } catch (const NotMeshable&) {
+      return false;
+    }
+    const std::vector<FacePair> crossings = find_self_intersections(shifted);
+    if (crossings.empty()) {
+      mesh = std::move(shifted);
+      return true;
+    }
+    for (const FacePair& pair : crossings)
+      for (const std::uint32_t f : {pair.face, pair.other})
+        for (const std::uint32_t v : mesh.triangles[f]) constraints[v] = VertexConstraint::fixed;
+  }
+  return false;
+}
+
+}  // namespace scan2fea

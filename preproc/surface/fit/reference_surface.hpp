@@ -1,0 +1,42 @@
+// The scan, made ready to be asked: what the fitting, guarding and relaxing stages all need of it, computed once.
+#pragma once
+
+#include "preproc/mesh/surface_mesh.hpp"
+#include "preproc/surface/features/feature_scan.hpp"
+#include "preproc/surface/kernel/adjacency.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <vector>
+
+namespace scan2fea {
+
+// Keeps references to the mesh, which must outlive it and stay as it is. Linear in the mesh; about 100 bytes a
+// triangle.
+struct ReferenceSurface {
+  explicit ReferenceSurface(const SurfaceMesh& scan);
+  explicit ReferenceSurface(const FeatureScan& scan);
+
+  const SurfaceMesh& mesh;           // cut open along its features, if it has some
+  const SurfaceMesh& whole;          // not cut
+  VertexStars stars;                 // of `mesh`, as all below
+  std::vector<Triangle> neighbours;  // see face_neighbours
+  std::vector<Vec3> face_normals;    // unit
+  std::vector<Vec3> vertex_normals;  // unit
+  // Which points of the scan and of a result may stand for one another, see FeatureNet::patch_of_face; empty without
+  // features.
+  std::vector<std::uint32_t> patch_of_vertex;
+  double diagonal = 0;  // of the bounding box
+  double area = 0;
+
+  // Of a result with so many triangles.
+  double mean_edge(std::size_t triangles) const {
+    return std::sqrt(4 / std::numbers::sqrt3 * area / static_cast<double>(triangles));
+  }
+
+ private:
+  ReferenceSurface(const SurfaceMesh& cut, const SurfaceMesh& scan);
+};
+
+}  // namespace scan2fea

@@ -1,0 +1,36 @@
+#include "preproc/surface/kernel/components.hpp"
+
+#include "preproc/surface/kernel/union_find.hpp"
+
+#include <algorithm>
+
+namespace scan2fea {
+
+Components find_components(const SurfaceMesh& mesh) {
+  UnionFind sets(mesh.vertices.size());
+  for (const Triangle& t : mesh.triangles) {
+    sets.unite(t[0], t[1]);
+    sets.unite(t[0], t[2]);
+  }
+  Components components;
+  components.of_vertex.resize(mesh.vertices.size());
+  // A set's root is its smallest member, so it comes first.
+  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
+    const std::uint32_t root = sets.find(v);
+    components.of_vertex[v] = root == v ? components.count++ : components.of_vertex[root];
+  }
+  return components;
+}
+
+std::vector<long> euler_characteristics(const SurfaceMesh& mesh, const Components& components,
+                                        std::span<const FeatureEdge> border) {
+  // E = (3 F + border) / 2.
+  std::vector<long> vertices(components.count, 0), twice_edges_less_faces(components.count, 0);
+  for (const std::uint32_t c : components.of_vertex) ++vertices[c];
+  for (const Triangle& t : mesh.triangles) ++twice_edges_less_faces[components.of_vertex[t[0]]];
+  for (const FeatureEdge& e : border) ++twice_edges_less_faces[components.of_vertex[e[0]]];
+  for (std::size_t c = 0; c < vertices.size(); ++c) vertices[c] -= twice_edges_less_faces[c] / 2;
+  return vertices;
+}
+
+}  // namespace scan2fea

@@ -1,0 +1,26 @@
+// Which parts of a surface hang together, and the topology of each.
+#pragma once
+
+#include "preproc/mesh/surface_mesh.hpp"
+#include "preproc/surface/kernel/adjacency.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace scan2fea {
+
+struct Components {
+  std::uint32_t count = 0;
+  std::vector<std::uint32_t> of_vertex;  // numbered in the order of their first vertices
+};
+
+// Connected by sharing vertices; a vertex without a triangle is a component of its own. Nearly linear.
+Components find_components(const SurfaceMesh& mesh);
+
+// V - E + F per component, where every edge has two triangles but those of `border`, which have one: 2 - 2 genus -
+// borders of a manifold one. Linear.
+std::vector<long> euler_characteristics(const SurfaceMesh& mesh, const Components& components,
+                                        std::span<const FeatureEdge> border = {});
+
+}  // namespace scan2fea

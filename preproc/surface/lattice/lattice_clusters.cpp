@@ -1,0 +1,168 @@
+#include "preproc/surface/lattice/lattice_clusters.hpp"
+
+#include "preproc/surface/kernel/parallel_blocks.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace scan2fea {
+namespace {
+
+constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+constexpr double farthest_join = 0.6;              // edge lengths between lattice points that may become one
+constexpr double smallest_cluster = 0.3;           // cells
+constexpr double cell_area = 0.86602540378443865;  // of a lattice of edge length 1, sqrt(3)/2
+
+}  // namespace
+
+LatticeClusters::LatticeClusters(const FieldGraph& field_graph, const OrientationField& orientation,
+                                 const PositionField& position)
+    : graph_(&field_graph.levels.front()),
+      sets_(graph_->size()),
+      next_(graph_->size()),
+      points_(graph_->size()),
+      counts_(graph_->size(), 1.0),
+      lengths_(graph_->size()),
+      cells_(graph_->size()),
+      is_anchored_(graph_->size(), false) {
+  const GraphLevel& graph = *graph_;
+  const std::vector<Complex>& directions = orientation.directions;
+  const Complex sixth = std::polar(1.0, M_PI / 3);
+  for_each_block(graph.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      next_[i] = static_cast<std::uint32_t>(i);
+      lengths_[i] = std::exp(graph.log_length[i]);
+      const auto [u, v] = position.offsets[i];
+      const Complex to_point = -lengths_[i] * directions[i] * (static_cast<double>(u) + static_cast<double>(v) * sixth);
+      points_[i] = graph.positions[i] + TangentFrame(graph.normals[i]).vector(to_point);
+      cells_[i] = graph.areas[i] / (cell_area * lengths_[i] * lengths_[i]);
+    }
+  });
+  join_anchored(field_graph.anchors);
+  for (const Join& join : joins_by_residual(position)) join_if_near(join);
+  dissolve_small();
+}
+
+template <class Visit>
+void LatticeClusters::for_each_neighbour_set(std::uint32_t root, const Visit& visit) {
+  std::uint32_t i = root;
+  do {
+    for (std::uint32_t e = graph_->first[i]; e < graph_->first[i + 1]; ++e) {
+      const std::uint32_t other = find(graph_->neighbours[e]);
+      if (other != root) visit(other);
+    }
+    i = next_[i];
+  } while (i != root);
+}
+
+bool LatticeClusters::dissolve(std::uint32_t root) {
+  if (is_anchored_[root]) return false;
+  std::uint32_t nearest = none;
+  double nearest_distance = std::numeric_limits<double>::infinity();
+  const Vec3 here = point(root);
+  for_each_neighbour_set(root, [&](std::uint32_t other) {
+    const double distance = (point(other) - here).squaredNorm();
+    if (distance < nearest_distance || (distance == nearest_distance && other < nearest)) {
+      nearest = other;
+      nearest_distance = distance;
+    }
+  });
+  if (nearest == none) return false;
+  // The receiver keeps its place.
+  const Vec3 sum = points_[nearest];
+  const double count = counts_[nearest];
+  const std::uint32_t joint = merge(root, nearest);
+  points_[joint] = sum;
+  counts_[joint] = count;
+  return true;
+}
+
+// All nodes of a sample, on whatever side, are one set at its place.
+void LatticeClusters::join_anchored(const std::vector<Vec3>& anchors) {
+  if (anchors.empty()) return;
+  std::vector<std::uint32_t> first(anchors.size(), none);
+  for (std::uint32_t i = 0; i < graph_->size(); ++i) {
+    const std::uint32_t sample = graph_->anchor[i];
+    if (sample == no_sample) continue;
+    if (first[sample] == none) first[sample] = i;
+    const std::uint32_t root = first[sample] == i ? i : merge(find(first[sample]), i);
+    points_[root] = anchors[sample];
+    is_anchored_[root] = true;
+  }
+}
+
+// Edges whose ends share a lattice point, by ascending disagreement about where it is (to 1/256 of an edge length).
+std::vector<LatticeClusters::Join> LatticeClusters::joins_by_residual(const PositionField& position) const {
+  const GraphLevel& graph = *graph_;
+  constexpr std::size_t buckets = 256;
+  constexpr std::uint16_t no_join = buckets;
+  std::vector<std::uint16_t> residual(graph.neighbours.size(), no_join);
+  for_each_block(graph.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      for (std::uint32_t e = graph.first[i]; e < graph.first[i + 1]; ++e) {
+        const std::uint32_t j = graph.neighbours[e];
+        if (j > i) continue;
+        const LatticeCoordinates predicted = carried(position.steps[e], position.offsets[j]);
+        const LatticeCoordinates change{predicted[0] - position.offsets[i][0], predicted[1] - position.offsets[i][1]};
+        const LatticeCoordinates image = nearest_lattice_point(change);
+        if (image[0] == 0 && image[1] == 0)
+          residual[e] =
+              static_cast<std::uint16_t>(std::min<float>(buckets - 1, std::sqrt(squared_length(change)) * buckets));
+      }
+    }
+  });
+  std::array<std::size_t, buckets + 1> start{};
+  for (const std::uint16_t r : residual)
+    if (r != no_join) ++start[r + 1U];
+  for (std::size_t b = 0; b < buckets; ++b) start[b + 1] += start[b];
+  std::vector<Join> joins(start[buckets]);
+  for (std::uint32_t i = 0; i < graph.size(); ++i)
+    for (std::uint32_t e = graph.first[i]; e < graph.first[i + 1]; ++e)
+      if (residual[e] != no_join) joins[start[residual[e]]++] = {graph.neighbours[e], i};
+  return joins;
+}
+
+void LatticeClusters::join_if_near(const Join& join) {
+  const std::uint32_t a = find(join.a), b = find(join.b);
+  if (a == b || (is_anchored_[a] && is_anchored_[b])) return;
+  const double most = farthest_join * 0.5 * (lengths_[a] + lengths_[b]);
+  if ((point(a) - point(b)).squaredNorm() > most * most) return;
+  const bool is_anchored = is_anchored_[a] || is_anchored_[b];
+  const std::uint32_t anchored = is_anchored_[a] ? a : b;
+  const Vec3 sum = is_anchored ? points_[anchored] : Vec3(points_[a] + points_[b]);
+  const double count = is_anchored ? counts_[anchored] : counts_[a] + counts_[b];
+  const std::uint32_t root = merge(a, b);
+  points_[root] = sum;
+  counts_[root] = count;
+}
+
+void LatticeClusters::dissolve_small() {
+  std::vector<std::uint32_t> small;
+  for (std::uint32_t i = 0; i < graph_->size(); ++i)
+    if (find(i) == i && cells(i) < smallest_cluster) small.push_back(i);
+  std::stable_sort(small.begin(), small.end(), [&](std::uint32_t a, std::uint32_t b) { return cells(a) < cells(b); });
+  for (const std::uint32_t root : small)
+    if (find(root) == root && cells(root) < smallest_cluster) dissolve(root);
+}
+
+std::uint32_t LatticeClusters::merge(std::uint32_t a, std::uint32_t b) {
+  std::swap(next_[a], next_[b]);  // two rings become one
+  const double cells = cells_[a] + cells_[b];
+  const bool is_anchored = is_anchored_[a] || is_anchored_[b];
+  const std::uint32_t root = sets_.unite(a, b);
+  cells_[root] = cells;
+  is_anchored_[root] = is_anchored;
+  return root;
+}
+
+SurfaceMesh welded_scan(const SurfaceMesh& cut, const std::vector<std::uint32_t>& welded) {
+  SurfaceMesh mesh;
+  mesh.vertices.resize(*std::max_element(welded.begin(), welded.end()) + std::size_t{1});
+  for (std::size_t i = 0; i < welded.size(); ++i) mesh.vertices[welded[i]] = cut.vertices[i];
+  mesh.triangles = cut.triangles;
+  for (Triangle& t : mesh.triangles) t = {welded[t[0]], welded[t[1]], welded[t[2]]};
+  return mesh;
+}
+
+}  // namespace scan2fea

@@ -1,0 +1,23 @@
+// Small moves of vertices that free a surface of intersections without the loss of a face.
+#pragma once
+
+#include "preproc/mesh/surface_mesh.hpp"
+#include "preproc/surface/repair/repair_result.hpp"
+#include "quality/self_intersections.hpp"
+
+#include <vector>
+
+namespace scan2fea {
+
+// Vertices of intersecting faces that lie at the very same place are drawn a hundredth of the way to the mean of their
+// neighbours. Returns whether there were any. Precondition: `pairs` are the surface's intersecting pairs; manifold.
+bool part_touching_vertices(SurfaceMesh& mesh, const std::vector<FacePair>& pairs, RepairResult& result);
+
+// Vertices of intersecting faces move half way to the mean of their neighbours until their faces are clear, no farther
+// than an edge or a hundredth of the surface's diagonal, beyond which the shape would change. This undoes the folds of
+// a noisy scan; then they go back towards the places that were measured, as far as nothing meets. Sheets that cross it
+// does not part: where more than half of a fold's pairs remain, it is put back. Returns the pairs that remain.
+// Precondition: `pairs` are the surface's intersecting pairs; manifold.
+std::vector<FacePair> smooth_folds(SurfaceMesh& mesh, std::vector<FacePair> pairs, RepairResult& result);
+
+}  // namespace scan2fea

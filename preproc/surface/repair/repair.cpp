@@ -1,0 +1,113 @@
+#include "preproc/surface/repair/repair.hpp"
+
+#include "preproc/mesh/error_text.hpp"
+#include "preproc/surface/repair/degenerate_faces.hpp"
+#include "preproc/surface/repair/hole_closing.hpp"
+#include "preproc/surface/repair/intersection_removal.hpp"
+#include "preproc/surface/repair/shells.hpp"
+#include "preproc/surface/repair/soup_adjacency.hpp"
+#include "preproc/surface/repair/soup_cleaning.hpp"
+#include "quality/validity.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace scan2fea {
+namespace {
+
+// Volume over area^1.5 is 0.094 for a ball and 3.5e-4 for a plate a thousandth as thick as wide; rounding in a flat
+// surface of 32-bit floats leaves about 1e-8.
+constexpr double least_volume_of_area = 1e-6;
+
+// Cutting out more would make another shape of the scan.
+constexpr double most_cut_of_area = 1.0 / 3;
+
+void clean_soup(SurfaceMesh& mesh, RepairResult& result) {
+  drop_collapsed_faces(mesh, result);
+  drop_duplicate_faces(mesh, result);
+  const std::size_t before = result.changes.size();
+  weld_borders(mesh, result);
+  if (result.changes.size() != before) {
+    drop_collapsed_faces(mesh, result);
+    drop_duplicate_faces(mesh, result);
+  }
+  drop_inner_walls(mesh, result);
+}
+
+void drop_specks(SurfaceMesh& mesh, const RepairOptions& options, RepairResult& result) {
+  const std::vector<Shell> shells = find_shells(mesh);
+  double largest = 0;
+  for (const Shell& shell : shells) largest = std::max(largest, shell.box.diagonal());
+  std::vector<char> marks;
+  for (const Shell& shell : shells) marks.push_back(shell.box.diagonal() < options.speck_of_diagonal * largest);
+  drop_shells(mesh, shells, marks, RepairKind::DroppedSpeck, result);
+}
+
+// Shells that bound nothing: dropped where small, an error where they are what there is. Those that are to stay open
+// bound nothing anyway.
+void drop_flat_shells(SurfaceMesh& mesh, const RepairOptions& options, RepairResult& result) {
+  const std::vector<Shell> shells = find_shells(mesh, options.holes == Holes::keep);
+  const double total_area = surface_area(mesh);
+  std::vector<char> marks;
+  for (const Shell& shell : shells) {
+    marks.push_back(!shell.open && std::abs(shell.volume) <= least_volume_of_area * std::pow(shell.area, 1.5));
+    if (marks.back() && shell.area >= options.fragment_of_area * total_area)
+      throw NotMeshable({.what = "the surface is flat: it encloses no volume",
+                         .where = error_text((shell.box.low + shell.box.high) / 2),
+                         .value = "volume " + error_text(std::abs(shell.volume)) + ", area " + error_text(shell.area),
+                         .limit = "volume over area^1.5 above " + error_text(least_volume_of_area),
+                         .advice = "a scan of all sides of the part"});
+  }
+  drop_shells(mesh, shells, marks, RepairKind::DroppedFragment, result);
+}
+
+[[noreturn]] void fail_of_intersections(const RepairResult& result, double cut_of_area) {
+  const RepairChange* largest = nullptr;
+  for (const RepairChange& change : result.changes)
+    if (change.kind == RepairKind::Intersection && (!largest || change.size > largest->size)) largest = &change;
+  throw NotMeshable({.what = "the surface intersects itself beyond repair",
+                     .where = largest ? error_text(largest->place) : std::string(),
+                     .value = std::to_string(result.intersecting_pairs) + " pairs of faces; " +
+                              error_text(100 * cut_of_area) + " % of the area cut to mend them",
+                     .limit = error_text(100 * most_cut_of_area) + " %",
+                     .advice = "a scan with less noise and without overlapping sheets"});
+}
+
+}  // namespace
+
+RepairResult repair(SurfaceMesh& mesh, const RepairOptions& options, const Progress& progress) {
+  RepairResult result;
+  const bool keep_holes = options.holes == Holes::keep;
+  check_input(mesh);
+  progress("repair", 0);
+  for (const Vec3& p : drop_unused_vertices(mesh)) result.changes.push_back({RepairKind::UnusedVertex, p, 0});
+  const SurfaceValidity validity = check_validity(mesh);
+  const bool sound = validity.closed() && validity.manifold();  // then there is nothing to do but look for crossings
+  if (!sound) {
+    clean_soup(mesh, result);
+    make_manifold(mesh, result);
+  }
+  drop_specks(mesh, options, result);
+  if (!sound && !keep_holes) {
+    close_holes(mesh, {options.largest_hole_of_diagonal, options.fragment_of_area}, result, progress);
+    make_manifold(mesh, result);
+  }
+  mend_degenerate_faces(mesh, result);
+  drop_flat_shells(mesh, options, result);
+  orient_shells(mesh, keep_holes, result);
+  progress("repair", 0.3);
+
+  const double area = surface_area(mesh);
+  const IntersectionRemoval removal = remove_intersections(mesh, result, progress);
+  if (removal.remaining > 0 || removal.area_cut > most_cut_of_area * area)
+    fail_of_intersections(result, removal.area_cut / area);
+  if (result.count(RepairKind::Intersection) > 0) {
+    drop_flat_shells(mesh, options, result);
+    drop_shells_inside(mesh, keep_holes, result);
+  }
+  drop_unused_vertices(mesh);
+  progress("repair", 1);
+  return result;
+}
+
+}  // namespace scan2fea

@@ -1,0 +1,25 @@
+// Simplification: fewer, nearly equilateral triangles that stay on the scan and enclose its volume.
+// Source: the paper, section 3 (collapse); the lattice chain joins orientation and position fields with an optimisation
+// of entropy and fit.
+#pragma once
+
+#include "preproc/mesh/progress.hpp"
+#include "preproc/mesh/surface_mesh.hpp"
+#include "preproc/surface/simplification/simplify_options.hpp"
+
+namespace scan2fea {
+
+// `mesh` must be manifold, outward and free of self-intersections (see `repair`), closed or with borders; so is the
+// result, with the same genus, components and borders, and with a chain of edges along each crease. The enclosed volume
+// of every closed component is kept to rounding by the `lattice` method, and by `collapse` where the lattice gave way
+// to it; asked for directly, `collapse` is the paper's method as it is, and moves only what passes through itself
+// afterwards. Throws NotMeshable where neither way gives a valid surface, WrongUsage for options out of range,
+// Cancelled. On any throw `mesh` is as it was. The same bytes for any number of threads. O(n log n). Not guaranteed:
+// that a deviation which is possible is reached, or with the fewest triangles.
+SimplifyResult simplify(SurfaceMesh& mesh, const SimplifyOptions& options = {}, const Progress& progress = {});
+
+// The same for those who need the scan afterwards, to compare with: a copy of it less.
+SimplifyResult simplify(const SurfaceMesh& scan, SurfaceMesh& surface, const SimplifyOptions& options,
+                        const Progress& progress = {});
+
+}  // namespace scan2fea

@@ -1,0 +1,71 @@
+// What simplification is told, and what it tells.
+#pragma once
+
+#include "preproc/mesh/effort.hpp"
+#include "preproc/surface/collapse/collapse_options.hpp"
+#include "preproc/surface/features/feature_file.hpp"
+#include "preproc/surface/features/find_features.hpp"
+#include "preproc/surface/sizing/size_limits.hpp"
+#include "preproc/surface/sizing/sizing_field.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <variant>
+
+namespace scan2fea {
+
+// How large the triangles are to be: exactly one of these.
+struct FaceCount {
+  std::size_t faces;  // at least 4 per component
+};
+struct FaceRatio {
+  double of_input;  // triangles of the result over those of the input, > 0
+};
+struct MeanEdgeLength {
+  double length;  // model units
+};
+struct LargestDeviation {
+  double distance;       // two-sided Hausdorff distance to the scan, model units, bounded for all points
+  bool required = true;  // false: where it is not reached, the nearest surface found is given
+};
+using TargetSize = std::variant<FaceCount, FaceRatio, MeanEdgeLength, LargestDeviation>;
+
+enum class SimplifyMethod {
+  collapse,  // the paper's: contractions predicted by a cost, vertices placed by a star objective
+  lattice,   // fields on the scan, extraction, then entropy and fit optimised together
+};
+
+struct SimplifyOptions {
+  SimplifyMethod method = SimplifyMethod::lattice;
+  TargetSize size = FaceRatio{0.13};
+  Effort effort = Effort::normal;
+  Sizing sizing = Sizing::curvature;
+  double gradation = 0.12;  // largest |grad h| of the edge length h, 0.02 to 1; smaller is smoother
+  SizeLimits limits;        // for the `lattice` method
+  // Open edges that are sharper than the scan, since half their angle bounds that of tetrahedra (wedges.hpp). It costs
+  // distance in thin folds: on the Horse at 12,604 triangles 0.0173 % RMS instead of 0.0159 %.
+  bool for_tetrahedra = false;
+  // Creases and their corners are kept exactly by the `lattice` method, and open borders always are. The angle unset:
+  // no creases.
+  FeatureOptions features;
+  std::optional<FeatureLines> given_features;  // instead of those that would be found; see match_features.hpp
+  CollapseOptions collapse;  // objective, placement and cost of the `collapse` method; its face count is set by `size`
+};
+
+struct SimplifyResult {
+  SimplifyMethod method = SimplifyMethod::lattice;  // the one that made the result
+  std::string fallback_reason;                      // why `lattice` gave way to `collapse`; empty where it did not
+  std::size_t faces_before = 0;
+  std::size_t faces_after = 0;
+  std::size_t crossings_mended = 0;  // pairs of faces that passed through one another before any was mended
+  double largest_deviation = 0;      // an upper bound, two-sided, model units; only where the size is a deviation
+  std::size_t feature_edges = 0;     // of the scan, that were found or given
+  FeatureLines features;             // the creases of the scan that were to be kept
+  // Where triangles of the wanted size are too large for the features: how that was settled; empty where it was not so.
+  std::string feature_remark;
+  std::string size_remark;             // where more triangles were made than were asked for
+  std::size_t feature_edges_kept = 0;  // edges of the result that stand for creases and borders
+};
+
+}  // namespace scan2fea

@@ -1,0 +1,316 @@
+#include "preproc/surface/simplification/surface_candidate.hpp"
+
+#include "preproc/mesh/error.hpp"
+#include "preproc/surface/collapse/collapse.hpp"
+#include "preproc/surface/features/feature_selection.hpp"
+#include "preproc/surface/fit/preserve_volume.hpp"
+#include "preproc/surface/kernel/clear_moves.hpp"
+#include "preproc/surface/lattice/lattice.hpp"
+#include "preproc/surface/mending/local_moves.hpp"
+#include "preproc/surface/mending/local_refinement.hpp"
+#include "preproc/surface/mending/mend_surface.hpp"
+#include "preproc/surface/mending/wedges.hpp"
+#include "preproc/surface/sizing/split_long_edges.hpp"
+#include "quality/self_intersections.hpp"
+#include "quality/triangle_measures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace scan2fea {
+namespace {
+
+// Over the wanted edge length.
+constexpr double longest_edge_to_contract = 1;
+
+// Most fits reach it without the mending.
+constexpr double least_angle_deg = 38.5;
+
+// Of the diagonal, the dial between shape and fit at the least on parts with edges: most of them have plane faces and
+// cylinders, which triangles can follow.
+constexpr double fidelity_of_parts = 0.0003;
+
+// Of the fit, in which it finds out how near the triangles can come.
+constexpr int first_rounds = 2;
+
+// Of the faces. Where all points are bounded afterwards, a few that oppose a rough scan do not make a surface useless,
+// and there is none without at sizes below the scan's own. Without a bound only as many as a scan's own folds leave
+// among very many: to give up the lattice for one of half a million costs far more than it mends.
+constexpr double most_inverted_within_deviation = 0.001, most_inverted = 1e-5;
+
+// What an effort buys. Trials differ by a little in the sizing, which lays another lattice: of several, the distances
+// to the scan in the tightest folds differ by a third, so the best of them is worth having where time is no matter.
+struct FitPlan {
+  int rounds;
+  double fidelity_of_diagonal;  // the dial between shape and fit, at the least
+  double fidelity_of_residual;  // and over the RMS distance of the first fit
+  int trials;
+  bool lowers_worst;              // see lower_worst
+  bool within_deviation = false;  // the result is to be, and its deviation bounded
+
+  double largest_inverted_share() const { return within_deviation ? most_inverted_within_deviation : most_inverted; }
+};
+
+FitPlan plan_of(Effort effort) {
+  switch (effort) {
+    case Effort::low:
+      return {
+          .rounds = 4, .fidelity_of_diagonal = 0.0013, .fidelity_of_residual = 7, .trials = 1, .lowers_worst = false};
+    case Effort::normal:
+      return {
+          .rounds = 8, .fidelity_of_diagonal = 0.0012, .fidelity_of_residual = 7, .trials = 1, .lowers_worst = true};
+    case Effort::high:
+      return {.rounds = 12,
+              .fidelity_of_diagonal = 0.00095,
+              .fidelity_of_residual = 5.7,
+              .trials = 5,
+              .lowers_worst = true};
+  }
+  return {};
+}
+
+std::string describe(const SurfaceDefects& defects) {
+  return std::to_string(defects.crossings.size()) + " crossing pairs of faces and " +
+         std::to_string(defects.inverted.size()) + " inverted faces remained";
+}
+
+// Exact volume, mending, and flips of what it leaves without area.
+void finish(Candidate& candidate, PreparedScan& scan, double largest_inverted_share, const MendOptions& options,
+            const Progress& progress) {
+  try {
+    MendOptions mending = options;
+    mending.least_angle_deg = least_angle_deg;
+    mending.keep_volume = scan.is_closed();
+    const MendResult mended = mend_surface(candidate.mesh, candidate.net, scan.reference(), mending, progress);
+    candidate.crossings_mended = mended.before.crossings.size();
+    if (SurfaceMesh flipped = candidate.mesh; flip_caps(flipped, edges_of(candidate.net)) > 0 &&
+                                              find_self_intersections(flipped).size() <= mended.after.crossings.size())
+      candidate.mesh = std::move(flipped);
+    const std::size_t inverted = mended.after.inverted.size();
+    if (mended.after.crossings.empty() &&
+        static_cast<double>(inverted) <= largest_inverted_share * static_cast<double>(candidate.mesh.triangles.size()))
+      return;
+    candidate.failure = describe(mended.after);
+    const auto centre = [&](std::uint32_t f) {
+      const auto& [a, b, c] = candidate.mesh.triangles[f];
+      return Vec3((candidate.mesh.vertices[a] + candidate.mesh.vertices[b] + candidate.mesh.vertices[c]) / 3);
+    };
+    for (const FacePair& pair : mended.after.crossings) candidate.failed_at.push_back(centre(pair.face));
+    for (const std::uint32_t f : mended.after.inverted) candidate.failed_at.push_back(centre(f));
+  } catch (const NotMeshable& e) {
+    candidate.failure = e.parts().what;
+  }
+}
+
+Candidate by_lattice(PreparedScan& scan, const SizingOptions& sizing, const FitPlan& plan, double strength_factor,
+                     const Progress& progress) {
+  LatticeOptions lattice_options;
+  lattice_options.sizing = sizing;
+  lattice_options.sizing.strength *= strength_factor;
+  LatticeResult lattice = scan.has_features() ? remesh_by_lattice(scan.features(), lattice_options, progress)
+                                              : remesh_by_lattice(scan.mesh, lattice_options, progress);
+  Candidate candidate;
+  // Where features need more triangles than were asked for, they get them.
+  candidate.failure = scan.has_features() ? "" : lattice.failure;
+  if (!candidate.failure.empty()) return candidate;
+  candidate.mesh = std::move(lattice.mesh);
+  candidate.net = std::move(lattice.net);
+  ShapeFitOptions fit;
+  fit.rounds = first_rounds + plan.rounds;
+  if (plan.within_deviation) fit.hold_faces_below = 1;
+  fit.fidelity_of_diagonal = plan.fidelity_of_diagonal;
+  fit.fidelity_of_residual = plan.fidelity_of_residual;
+  if (scan.has_creases()) {
+    fit.fidelity_of_diagonal = fidelity_of_parts;
+    fit.lift_tail_of_diagonal = *fit.lift_tail_of_diagonal * fidelity_of_parts / plan.fidelity_of_diagonal;
+    fit.rounds_of_dialling = plan.rounds;
+    fit.rounds = first_rounds + plan.rounds / 2;  // planes and cylinders are met soon
+  }
+  fit.nearest_vertex_of_scan_vertex = std::move(lattice.vertex_of_scan_vertex);
+  candidate.fit = optimise_shape_and_fit(candidate.mesh, candidate.net, scan.reference(), fit, progress);
+  MendOptions mending;
+  // On parts with edges, not much looser than the fit: what is plane stays plane.
+  if (scan.has_creases()) {
+    mending.fidelity_of_diagonal = candidate.fit.fidelity_of_diagonal;
+    mending.loosest_fidelity_of_diagonal = 2 * candidate.fit.fidelity_of_diagonal;
+  }
+  finish(candidate, scan, plan.largest_inverted_share(), mending, progress);
+  return candidate;
+}
+
+Candidate best_by_lattice(PreparedScan& scan, const SizingOptions& sizing, const FitPlan& plan,
+                          const Progress& progress) {
+  if (plan.trials == 1) return by_lattice(scan, sizing, plan, 1, progress);
+  constexpr double strength_step = 0.03;
+  Candidate best, failed;
+  double best_score = std::numeric_limits<double>::infinity();
+  for (int trial = 0; trial < plan.trials; ++trial) {
+    const double strength_factor = 1 + strength_step * (trial - (plan.trials - 1) / 2.0);
+    Candidate candidate = by_lattice(scan, sizing, plan, strength_factor, progress);
+    if (!candidate.failure.empty()) {
+      failed = std::move(candidate);
+      continue;
+    }
+    // All that is to be small, at once.
+    const double score = (measure_triangles(candidate.mesh).edge_ratio.mean - 1) * candidate.fit.rms_distance *
+                         candidate.fit.largest_distance;
+    if (score >= best_score) continue;
+    best = std::move(candidate);
+    best_score = score;
+  }
+  return best.mesh.triangles.empty() ? failed : best;
+}
+
+// Where the lattice gives way: contractions towards the same sizing, none of which makes faces meet, then the same fit.
+// Where the fit ends in crossings that cannot be mended, vertices go only as far towards it as nothing meets, and
+// where the shape needs more triangles than were asked for, it keeps them: this way always ends in a sound surface.
+Candidate by_contraction(PreparedScan& scan, const SizingOptions& sizing, const FitPlan& plan,
+                         const Progress& progress) {
+  // Long triangles, as CAD makes them, are no start for even ones.
+  RefinedScan refined = refine_scan(scan.mesh, compute_sizing_field(scan.mesh, sizing), longest_edge_to_contract);
+  Candidate contracted;
+  contracted.mesh = std::move(refined.mesh);
+  CollapseOptions collapse_options;
+  collapse_options.target_faces = static_cast<std::size_t>(std::lround(sizing.triangles));
+  collapse_options.cost = CollapseCost::sized_length;
+  collapse_options.sizing = std::move(refined.edge_length);
+  collapse_options.keep_clear = true;
+  collapse(contracted.mesh, collapse_options, progress);
+
+  Candidate fitted = contracted;
+  ShapeFitOptions fit;
+  fit.rounds = 12;
+  if (!scan.is_closed()) {
+    fit.constraints.resize(fitted.mesh.vertices.size(), VertexConstraint::free);
+    for (const auto& [a, b] : boundary_edges(fitted.mesh))
+      fit.constraints[a] = fit.constraints[b] = VertexConstraint::fixed;
+  }
+  if (plan.within_deviation) fit.hold_faces_below = 1;
+  optimise_shape_and_fit(fitted.mesh, scan.reference(), fit, progress);
+  const std::vector<Vec3> targets = fitted.mesh.vertices;
+  finish(fitted, scan, plan.largest_inverted_share(), {}, progress);
+  if (fitted.failure.empty()) return fitted;
+
+  SurfaceMesh near_fit = contracted.mesh;
+  move_clear(near_fit, targets);
+  if (!scan.is_closed() || preserve_volume_clear(near_fit, scan.mesh)) contracted.mesh = std::move(near_fit);
+  return contracted;
+}
+
+// The paper's method as it is; only what passes through itself is mended.
+Candidate by_collapse(PreparedScan& scan, double faces, const SimplifyOptions& options, const Progress& progress) {
+  CollapseOptions collapse_options = options.collapse;
+  collapse_options.target_faces = static_cast<std::size_t>(std::lround(faces));
+  Candidate candidate;
+  candidate.mesh = scan.mesh;
+  collapse(candidate.mesh, collapse_options, progress);
+  MendOptions mending;
+  mending.least_angle_deg = 0;
+  mending.keep_volume = false;
+  const MendResult mended = mend_surface(candidate.mesh, scan.reference(), mending, progress);
+  candidate.crossings_mended = mended.before.crossings.size();
+  // It may end in needles that turn over, as the paper's does; what is sound for a mesher crosses nothing.
+  if (!mended.after.crossings.empty()) candidate.failure = describe(mended.after);
+  return candidate;
+}
+
+// Gives up the short creases near the places where a surface failed: whether there were some.
+bool drop_short_creases(PreparedScan& scan, const Candidate& failed) {
+  constexpr double longest = 0.5;  // of the diagonal: the folds of a scan, not the edges of a part
+  constexpr double reach = 2;      // mean edges
+  const double edge = equilateral_edge(surface_area(failed.mesh), static_cast<double>(failed.mesh.triangles.size()));
+  std::vector<FeatureEdge> left =
+      without_short_creases_near(scan.mesh, scan.features().sharp, failed.failed_at, reach * edge,
+                                 longest * bounding_box(scan.mesh.vertices).diagonal());
+  if (left.size() == scan.features().sharp.size()) return false;
+  scan.keep_creases(std::move(left));
+  return true;
+}
+
+// The lattice with the creases; where triangles of the wanted size are too large for them, without the short ones, with
+// smaller triangles, or without any.
+Candidate by_lattice_with_creases(PreparedScan& scan, SizingOptions sizing, const FitPlan& plan, SimplifyResult& result,
+                                  const Progress& progress) {
+  constexpr int most_trials = 4;
+  constexpr int most_larger = 1;  // times
+  constexpr double growth = 1.6;  // of the number of triangles
+  const double wanted = sizing.triangles;
+  const std::size_t creases = scan.features().sharp.size();
+  const std::string too_large = "triangles of the wanted size are too large for the creases: ";
+  int larger = 0;
+  for (int trial = 0; trial < most_trials && scan.has_creases(); ++trial) {
+    Candidate candidate = best_by_lattice(scan, sizing, plan, progress);
+    if (candidate.failure.empty()) {
+      const std::size_t kept = scan.features().sharp.size();
+      if (kept < creases)
+        result.feature_remark = too_large + std::to_string(creases - kept) + " of " + std::to_string(creases) +
+                                " edges of creases are not kept";
+      return candidate;
+    }
+    if (drop_short_creases(scan, candidate)) continue;
+    if (larger++ == most_larger) break;
+    sizing.triangles *= growth;
+  }
+  result.feature_remark = too_large + "none is kept";
+  scan.keep_creases({});
+  sizing.triangles = wanted;
+  return best_by_lattice(scan, sizing, plan, progress);
+}
+
+}  // namespace
+
+Candidate make_surface(PreparedScan& scan, const SizingOptions& sizing, const SimplifyOptions& options, Effort effort,
+                       SimplifyResult& result, const Progress& progress) {
+  result.method = options.method;
+  result.fallback_reason.clear();
+  FitPlan plan = plan_of(effort);
+  plan.within_deviation = std::holds_alternative<LargestDeviation>(options.size);
+  Candidate candidate = options.method == SimplifyMethod::collapse
+                            ? by_collapse(scan, sizing.triangles, options, progress)
+                        : scan.has_creases() ? by_lattice_with_creases(scan, sizing, plan, result, progress)
+                                             : best_by_lattice(scan, sizing, plan, progress);
+  if (!candidate.failure.empty() && options.method == SimplifyMethod::lattice) {
+    result.method = SimplifyMethod::collapse;
+    result.fallback_reason = candidate.failure;
+    candidate = by_contraction(scan, sizing, plan, progress);
+  }
+  if (!candidate.failure.empty())
+    throw NotMeshable({.what = "no valid surface of this size: " + candidate.failure,
+                       .where = {},
+                       .value = std::to_string(std::lround(sizing.triangles)) + " triangles",
+                       .limit = {},
+                       .advice = "more triangles (--faces, or a smaller --edge-length or --deviation)"});
+  result.crossings_mended = candidate.crossings_mended;
+  result.faces_after = candidate.mesh.triangles.size();
+  result.feature_edges_kept = edges_of(candidate.net).size();
+  return candidate;
+}
+
+void lower_worst(Candidate& candidate, PreparedScan& scan, Effort effort, SimplifyResult& result,
+                 const Progress& progress) {
+  constexpr double outlier = 14;             // over the RMS distance; 10 takes more shape than it gives
+  constexpr double vertices_a_face = 0.001;  // at most 0.2 % more triangles
+  constexpr std::size_t faces_a_place = 1500;
+  LocalRefinementOptions options;
+  options.limit = outlier * candidate.fit.rms_distance;
+  if (!plan_of(effort).lowers_worst || !(options.limit > 0) || scan.has_features()) return;
+  options.least_angle_deg = least_angle_deg;
+  options.most_vertices = static_cast<std::size_t>(vertices_a_face * static_cast<double>(result.faces_after));
+  options.most_places = 1 + result.faces_after / faces_a_place;
+  SurfaceMesh refined = candidate.mesh;
+  refine_worst(refined, scan.reference(), candidate.fit.largest_distance_of_face, options, progress);
+  if (!preserve_volume_clear(refined, scan.mesh)) return;
+  candidate.mesh = std::move(refined);
+  result.faces_after = candidate.mesh.triangles.size();
+}
+
+bool open_wedges(Candidate& candidate, PreparedScan& scan, const SimplifyOptions& options) {
+  if (!options.for_tetrahedra || options.method != SimplifyMethod::lattice || scan.has_creases()) return false;
+  return open_wedges(candidate.mesh, scan.reference(),
+                     {.keep_volume = scan.is_closed(),
+                      .constraints = held_lines(candidate.net, candidate.mesh.vertices.size())})
+      .opened();
+}
+
+}  // namespace scan2fea

@@ -1,0 +1,143 @@
+#include "preproc/surface/sizing/size_limits.hpp"
+
+#include "preproc/mesh/error.hpp"
+#include "preproc/surface/kernel/adjacency.hpp"
+#include "preproc/surface/kernel/parallel_blocks.hpp"
+#include "preproc/surface/sizing/sizing_field.hpp"
+#include "preproc/surface/sizing/split_long_edges.hpp"
+#include "quality/triangle_tree.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace scan2fea {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+// The lengths that come out of a lattice scatter about those that it is given.
+constexpr double margin = 0.85;
+// Of the other edges, so that the count is kept.
+constexpr double most_growth = 1.5;
+
+void require(bool good, const char* what, double value, const char* limit) {
+  if (!good)
+    throw WrongUsage({.what = what, .where = "size", .value = std::to_string(value), .limit = limit, .advice = {}});
+}
+
+void check(const SizeLimits& limits) {
+  for (const SizedBox& b : limits.boxes) {
+    require(b.length > 0 && std::isfinite(b.length), "edge length in a box out of range", b.length, "above 0");
+    require((b.box.high - b.box.low).minCoeff() >= 0, "box without an inside", (b.box.high - b.box.low).minCoeff(),
+            "low corner first");
+  }
+  for (const SizedBall& b : limits.balls) {
+    require(b.length > 0 && std::isfinite(b.length), "edge length in a ball out of range", b.length, "above 0");
+    require(b.ball.radius > 0, "radius of a ball out of range", b.ball.radius, "above 0");
+  }
+  if (limits.elements_across)
+    require(*limits.elements_across >= 1 && *limits.elements_across <= 10, "elements across a wall out of range",
+            *limits.elements_across, "1 to 10");
+}
+
+// By bounding boxes, so that a triangle too many may be limited, but none too few.
+double limit_of(const SurfaceMesh& mesh, const Triangle& t, const SizeLimits& limits) {
+  const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+  const Vec3 low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
+  double limit = infinity;
+  for (const SizedBox& box : limits.boxes)
+    if ((low - box.box.high).maxCoeff() <= 0 && (box.box.low - high).maxCoeff() <= 0)
+      limit = std::min(limit, box.length);
+  for (const auto& [ball, length] : limits.balls)
+    if ((ball.centre - ball.centre.cwiseMax(low).cwiseMin(high)).norm() <= ball.radius) limit = std::min(limit, length);
+  return limit;
+}
+
+void lower(std::vector<double>& limit, const Triangle& t, double to) {
+  for (const std::uint32_t v : t) limit[v] = std::min(limit[v], to);
+}
+
+// At p, with the outward normal; infinity where the ball is larger than `largest` or what it touches does not face p.
+double wall_thickness(const TriangleTree& tree, const std::vector<Vec3>& normals, const Vec3& p, const Vec3& normal,
+                      double largest) {
+  constexpr int most_steps = 30;
+  constexpr double opposing = -0.5;  // cosine
+  double radius = largest / 2;
+  std::optional<ClosestPoint> touched;
+  for (int step = 0; step < most_steps; ++step) {
+    const ClosestPoint nearest = tree.closest(p - radius * normal);
+    if (std::sqrt(nearest.squared_distance) >= radius * (1 - 1e-6)) break;
+    const Vec3 across = p - nearest.point;
+    const double height = across.dot(normal);
+    if (!(height > 0)) return infinity;
+    touched = nearest;
+    radius = across.squaredNorm() / (2 * height);
+  }
+  return touched && normals[touched->triangle].dot(normal) < opposing ? (p - touched->point).norm() : infinity;
+}
+
+void limit_across(const SurfaceMesh& scan, int elements, double longest_edge, std::vector<double>& limit) {
+  const TriangleTree tree(scan);
+  const std::vector<Vec3> normals = face_normals(scan);
+  std::vector<double> thickness(scan.triangles.size());
+  for_each_block(scan.triangles.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t f = first; f < last; ++f) {
+      const Triangle& t = scan.triangles[f];
+      const Vec3 middle = (scan.vertices[t[0]] + scan.vertices[t[1]] + scan.vertices[t[2]]) / 3;
+      thickness[f] = wall_thickness(tree, normals, middle, normals[f], elements * longest_edge);
+    }
+  });
+  for (std::size_t f = 0; f < thickness.size(); ++f) lower(limit, scan.triangles[f], thickness[f] / elements);
+}
+
+}  // namespace
+
+void refine_within_limits(SurfaceMesh& scan, std::vector<FeatureEdge>& features, const SizeLimits& limits) {
+  constexpr int most_passes = 24;
+  check(limits);
+  for (int pass = 0; pass < most_passes; ++pass) {
+    std::vector<double> length(scan.vertices.size(), infinity);
+    for (const Triangle& t : scan.triangles) {
+      const double limit = limit_of(scan, t, limits);
+      if (limit < infinity) lower(length, t, limit);
+    }
+    // Only edges with both ends in limits count, as the mean of their lengths is infinite otherwise; a triangle that
+    // reaches into a limit has three.
+    const std::size_t before = scan.vertices.size();
+    halve_long_edges(scan, length, features, 1, 1, 1);
+    if (scan.vertices.size() == before) return;
+  }
+}
+
+std::vector<double> longest_edges(const SurfaceMesh& scan, const SizeLimits& limits, double longest_edge) {
+  check(limits);
+  std::vector<double> limit(scan.vertices.size(), infinity);
+  for (const Triangle& t : scan.triangles) lower(limit, t, limit_of(scan, t, limits));
+  if (limits.elements_across) limit_across(scan, *limits.elements_across, longest_edge, limit);
+  for (double& l : limit) l *= margin;
+  return limit;
+}
+
+std::vector<double> within_limits(const SurfaceMesh& scan, const std::vector<double>& wanted,
+                                  std::span<const double> longest, double gradation, std::optional<double> triangles) {
+  const auto grown = [&](double factor) {
+    std::vector<double> length(wanted.size());
+    for (std::size_t v = 0; v < length.size(); ++v) length[v] = std::min(factor * wanted[v], longest[v]);
+    limit_gradation(scan, gradation, length);
+    return length;
+  };
+  std::vector<double> result = grown(1);
+  if (!triangles || predicted_triangles(scan, {result}) <= *triangles) return result;
+  double low = 1, high = most_growth;
+  for (int step = 0; step < 8; ++step) {
+    const double factor = step == 0 ? high : (low + high) / 2;
+    result = grown(factor);
+    const bool enough = predicted_triangles(scan, {result}) <= *triangles;
+    if (step == 0 && !enough) return result;
+    (enough ? high : low) = factor;
+  }
+  return grown(high);
+}
+
+}  // namespace scan2fea

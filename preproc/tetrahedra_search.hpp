@@ -1,0 +1,41 @@
+// Poor elements mended by another surface. What limits tetrahedra whose boundary stays is the surface: thin folds and
+// walls that only show when it is filled. There its edges are made shorter, and the whole is simplified and filled
+// anew.
+#pragma once
+
+#include "preproc/mesh/progress.hpp"
+#include "preproc/mesh/surface_mesh.hpp"
+#include "preproc/surface/simplification/simplify.hpp"
+#include "preproc/volume/tetrahedralize.hpp"
+
+namespace scan2fea {
+
+struct FilledSurface {
+  SurfaceMesh surface;
+  SimplifyResult simplified;
+  TetrahedralizeResult filled;
+};
+
+// Whether elements came out poor, with a dihedral angle below 24 degrees or 0.9 of what the surface allows (but at
+// least 20), and it is likely and affordable that another surface mends them: not with Effort::low, the `collapse`
+// method, a time limit or, unless the effort is high, above 50,000 triangles; nor where of 6,000 triangles or more a
+// tenth of all elements is poor.
+bool worth_renewing(const SimplifyOptions& simplification, const TetrahedralizeOptions& tetrahedralization,
+                    const FilledSurface& made);
+
+struct RenewalResult {
+  int rounds = 0;  // surfaces made
+  double min_dihedral_before_deg = 0;
+  double min_dihedral_after_deg = 0;  // never less
+  bool gained() const { return min_dihedral_after_deg > min_dihedral_before_deg; }
+};
+
+// `made` came of `scan` with these options. Replaced where a renewed one has a smallest dihedral angle larger by a
+// degree, until none is poor. Each round costs as much as `made` did; three at most, and with Effort::high six. At most
+// twice as many triangles, or 12,000. Throws Cancelled. The same result for any number of threads. Not guaranteed: a
+// gain.
+RenewalResult renew_where_poor(const SurfaceMesh& scan, const SimplifyOptions& simplification,
+                               const TetrahedralizeOptions& tetrahedralization, FilledSurface& made,
+                               const Progress& progress = {});
+
+}  // namespace scan2fea

@@ -1,0 +1,68 @@
+#include "preproc/tetrahedra_search.hpp"
+
+#include "quality/self_intersections.hpp"
+#include "quality/tetrahedron_measures.hpp"
+#include "quality/triangle_measures.hpp"
+#include "tests/analytic_meshes.hpp"
+
+#include <gtest/gtest.h>
+
+namespace scan2fea {
+namespace {
+
+// A ball with a cavity out of its middle: the wall is 0.19 thick at one side, 0.01 at the other.
+SurfaceMesh uneven_shell() {
+  SurfaceMesh cavity = analytic::sphere(0.9, 4);
+  for (Vec3& v : cavity.vertices) v.x() += 0.09;
+  return analytic::join(analytic::sphere(1, 4), analytic::reversed(cavity));
+}
+
+struct Chain {
+  SurfaceMesh scan;
+  SimplifyOptions simplification;
+  TetrahedralizeOptions tetrahedralization;
+  FilledSurface made;
+
+  explicit Chain(SurfaceMesh of, double ratio) : scan(std::move(of)) {
+    simplification.size = FaceRatio{ratio};
+    simplification.for_tetrahedra = true;
+    made.simplified = simplify(scan, made.surface, simplification);
+    made.filled = tetrahedralize(made.surface, tetrahedralization);
+  }
+  bool worth() const { return worth_renewing(simplification, tetrahedralization, made); }
+};
+
+TEST(TetrahedraSearch, MendsElementsInAThinWall) {
+  Chain chain(uneven_shell(), 0.25);
+  ASSERT_TRUE(chain.worth());
+  const double before = measure_tetrahedra(chain.made.filled.mesh).min_dihedral_deg;
+  const RenewalResult result = renew_where_poor(chain.scan, chain.simplification, chain.tetrahedralization, chain.made);
+  const TetSummary after = measure_tetrahedra(chain.made.filled.mesh);
+  EXPECT_TRUE(result.gained());
+  EXPECT_EQ(result.min_dihedral_before_deg, before);
+  EXPECT_EQ(result.min_dihedral_after_deg, after.min_dihedral_deg);
+  EXPECT_GT(after.min_dihedral_deg, 22);
+  EXPECT_EQ(after.inverted, 0u);
+  // The surface and the mesh in it belong together, and enclose what the scan does.
+  EXPECT_EQ(chain.made.filled.mesh.boundary.size(), chain.made.surface.triangles.size());
+  EXPECT_NEAR(after.volume, enclosed_volume(chain.made.surface), 1e-10 * after.volume);
+  EXPECT_NEAR(after.volume, enclosed_volume(chain.scan), 1e-9 * after.volume);
+  EXPECT_TRUE(find_self_intersections(chain.made.surface).empty());
+}
+
+TEST(TetrahedraSearch, IsNotForGoodElements) {
+  EXPECT_FALSE(Chain(analytic::sphere(1, 3), 0.5).worth());
+}
+
+TEST(TetrahedraSearch, IsNotWhereTimeMattersMore) {
+  Chain chain(uneven_shell(), 0.25);
+  ASSERT_TRUE(chain.worth());
+  chain.tetrahedralization.time_limit = std::chrono::seconds(1000);
+  EXPECT_FALSE(chain.worth());
+  chain.tetrahedralization.time_limit.reset();
+  chain.simplification.effort = Effort::low;
+  EXPECT_FALSE(chain.worth());
+}
+
+}  // namespace
+}  // namespace scan2fea
