@@ -1,0 +1,36 @@
+// Where a surface's triangles are badly shaped, or would make bad tetrahedra, and by how much shorter the edges there
+// would have to be.
+#pragma once
+
+#include "preproc/surface/features/feature_selection.hpp"
+#include "preproc/surface/simplification/surface_candidate.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace scan2fea {
+
+// What is wanted of the edges around a bad triangle, over what they were: by how bad it is.
+inline constexpr double least_shortening = 0.75, most_shortening = 0.5;
+
+// Where edges are to be `shortening` times as long as they were wanted.
+struct BadPlace {
+  Vec3 centre;
+  double reach, shortening;
+};
+
+struct ShapeDefects {
+  double least_angle_deg = 180;  // but for corners between two creases
+  std::vector<BadPlace> bad;
+  double sharpest_corner_deg = 180;  // between two creases
+  std::vector<SharpCorner> sharp_corners;
+
+  bool empty() const { return bad.empty() && sharp_corners.empty(); }
+  double sharpest() const { return std::min(least_angle_deg, sharpest_corner_deg); }
+};
+
+// Bad are triangles with angles below 30 degrees, folds whose half is sharper, and walls across which elements would
+// have less than 25; corners between two creases only below 19. O(n log n): three searches a triangle.
+ShapeDefects find_shape_defects(const Candidate& candidate);
+
+}  // namespace scan2fea
