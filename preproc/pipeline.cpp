@@ -143,6 +143,9 @@ PipelineResult run_pipeline(SurfaceMesh scan, const PipelineOptions& options, co
                             const StageListener& listener) {
   PipelineResult result;
   StageLog log(result.stages, listener);
+  SimplifyOptions simplification = options.simplify.value_or(SimplifyOptions{});
+  simplification.size = in_model_units(simplification.size, bounding_box(scan.vertices));
+  simplification.for_tetrahedra |= options.tetrahedralize.has_value();
   if (options.repair)
     log.run("repair", [&](StageRecord& record) { describe(repair(scan, *options.repair, progress), record); });
   result.scan = std::move(scan);
@@ -154,8 +157,6 @@ PipelineResult run_pipeline(SurfaceMesh scan, const PipelineOptions& options, co
     });
   const SurfaceMesh& dense = options.enrich ? enriched : result.scan;
   FilledSurface made;
-  SimplifyOptions simplification = options.simplify.value_or(SimplifyOptions{});
-  simplification.for_tetrahedra |= options.tetrahedralize.has_value();
   if (options.simplify)
     log.run("simplify", [&](StageRecord& record) {
       made.simplified = simplify(dense, made.surface, simplification, progress);

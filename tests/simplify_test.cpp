@@ -189,6 +189,25 @@ TEST(Simplify, DeviationOutOfReachIsAnErrorOnlyWhereRequired) {
   EXPECT_THROW(simplify(mesh, options), NotMeshable);
 }
 
+TEST(Simplify, AimsAtAFifthOfAPerCentOfTheDiagonalByDefault) {
+  const SurfaceMesh scan = analytic::torus(10, 3, 100, 50);
+  const double distance = 0.002 * bounding_box(scan.vertices).diagonal();
+  SurfaceMesh by_default = scan, asked_for = scan;
+  simplify(by_default);
+  simplify_to(asked_for, LargestDeviation{.distance = distance});
+  EXPECT_LE(bound_deviation(by_default, scan, {.limit = distance}).upper(), distance);
+  EXPECT_EQ(by_default.vertices, asked_for.vertices);
+  EXPECT_EQ(by_default.triangles, asked_for.triangles);
+}
+
+TEST(Simplify, SaysWhichCreasesItCouldNotKeep) {
+  // Two rims of 96 facets and twelve triangles.
+  SurfaceMesh mesh = analytic::cylinder(1, 0.1, 96, 8);
+  const SimplifyResult result = simplify_to(mesh, FaceCount{12});
+  ASSERT_GT(result.feature_edges, 0u);
+  EXPECT_EQ(result.feature_remark.empty(), result.feature_edges_kept > 0) << result.feature_remark;
+}
+
 TEST(Simplify, NoDeviationHasNoSize) {
   SurfaceMesh part = analytic::box({1, 1, 1}, 1);
   SimplifyOptions options;

@@ -62,13 +62,14 @@ RelativeLength parse_length(const std::string& text, char suffix) {
   return length;
 }
 
-TargetSize SizeFlags::resolve(const BoundingBox& scan) const {
+TargetSize SizeFlags::target() const {
   if (faces) return FaceCount{*faces};
   if (ratio) return FaceRatio{*ratio};
   if (edge_length) return MeanEdgeLength{*edge_length};
-  const RelativeLength bound = deviation.value_or(RelativeLength{.value = 0.002, .relative = true});
-  return LargestDeviation{.distance = bound.relative ? bound.value * scan.diagonal() : bound.value,
-                          .required = deviation.has_value()};
+  if (!deviation) return SimplifyOptions{}.size;
+  return LargestDeviation{
+      .distance = deviation->value,
+      .unit = deviation->relative ? LargestDeviation::Unit::of_diagonal : LargestDeviation::Unit::model};
 }
 
 void add_common_flags(CLI::App& command, CommonFlags& flags) {

@@ -37,16 +37,14 @@ struct RelativeLength {
 // "0.5" or, with the suffix, "0.1%" (returned as 0.001) or "1.6x". Throws CLI::ValidationError.
 RelativeLength parse_length(const std::string& text, char suffix);
 
-// The size flags, before the scan is known.
+// The size flags; at most one is set.
 struct SizeFlags {
   std::optional<std::size_t> faces;
   std::optional<double> ratio;
   std::optional<double> edge_length;
   std::optional<RelativeLength> deviation;
 
-  // Model units need the scan's bounding box. With no flag: a deviation of 0.2 % of its diagonal,
-  // as an aim and no bound.
-  TargetSize resolve(const BoundingBox& scan) const;
+  TargetSize target() const;  // with no flag the library's default
 };
 
 struct OutputFlag {

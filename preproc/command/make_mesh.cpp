@@ -69,7 +69,7 @@ int make_mesh(MakeMeshJob job) {
   SurfaceMesh scan = read_surface(job.common.input);
   display.line(describe_input(scan, job.common));
   if (job.features.read) job.pipeline.simplify->given_features = read_feature_lines(*job.features.read);
-  if (job.pipeline.simplify) job.pipeline.simplify->size = job.size.resolve(bounding_box(scan.vertices));
+  if (job.pipeline.simplify) job.pipeline.simplify->size = job.size.target();
   if (job.enrich) job.pipeline.enrich = job.enrich_options;
   const PipelineResult result = run_naming_input(std::move(scan), job, display);
 

@@ -6,8 +6,8 @@
 
 namespace scan2fea {
 
-std::vector<double> local_deviation(const SurfaceMesh& mesh, const ReferenceSurface& scan,
-                                    const DeviationBound& bound) {
+std::vector<double> deviation_at_scan(const SurfaceMesh& mesh, const ReferenceSurface& scan,
+                                      const DeviationBound& bound) {
   const std::vector<std::uint32_t> face_of_scan_vertex = nearest_faces(scan.mesh.vertices, mesh);
 
   // What each face answers for: its own points, and the scan's faces around the scan vertices that are nearest to it.

@@ -12,6 +12,7 @@ namespace scan2fea {
 // it or that it is nearest to, or the mean of what their corners see in their stars, if that is more: vertices answer
 // for all faces around them, but not so far that one bad face shrinks two rings of others. `bound` is of `mesh` from
 // the scan. O((n + m) log) searches of nearest triangles; parallel, deterministic.
-std::vector<double> local_deviation(const SurfaceMesh& mesh, const ReferenceSurface& scan, const DeviationBound& bound);
+std::vector<double> deviation_at_scan(const SurfaceMesh& mesh, const ReferenceSurface& scan,
+                                      const DeviationBound& bound);
 
 }  // namespace scan2fea

@@ -28,21 +28,21 @@ constexpr double worst_mean_edge_ratio = 1.19;
 // What is known of one trial.
 struct Found {
   Candidate candidate;
-  SimplifyResult result;
   double share_beyond = 1;  // of the faces, before local refinement
   double mean_edge_ratio = 0;
   bool is_largest = false;  // of as many triangles as there may be
 
-  bool holds(double distance) const { return result.largest_deviation <= distance; }
+  bool holds(double distance) const { return candidate.largest_deviation <= distance; }
   bool is_shapely() const { return mean_edge_ratio <= worst_mean_edge_ratio; }
+  bool gave_way() const { return !candidate.fallback_reason.empty(); }
 };
 
 bool is_better(const Found& a, const Found& b, double distance) {
   if (b.candidate.mesh.triangles.empty()) return true;
   if (a.holds(distance) != b.holds(distance)) return a.holds(distance);
-  if (!a.holds(distance)) return a.result.largest_deviation < b.result.largest_deviation;
+  if (!a.holds(distance)) return a.candidate.largest_deviation < b.candidate.largest_deviation;
   if (a.is_shapely() != b.is_shapely()) return a.is_shapely();
-  return a.is_shapely() ? a.result.faces_after < b.result.faces_after : a.mean_edge_ratio < b.mean_edge_ratio;
+  return a.is_shapely() ? a.candidate.faces() < b.candidate.faces() : a.mean_edge_ratio < b.mean_edge_ratio;
 }
 
 double share_beyond(const OneSidedDeviation& side, double distance) {
@@ -51,12 +51,13 @@ double share_beyond(const OneSidedDeviation& side, double distance) {
 }
 
 // What the edge lengths leave too far is brought near place by place; then the exact volume.
-void bring_within(Found& found, PreparedScan& scan, double deviation, const Progress& progress) {
+void bring_within(Found& found, double deviation, const Progress& progress) {
   // The shift that restores the volume takes a little of the deviation; where it takes more, once more with more left.
   constexpr int trials = 3;
   constexpr double for_volume = 0.005;
   constexpr double least_angle_deg = 28;
   constexpr double fidelity = 0.3;  // over the deviation: what the patches' fits must follow
+  const PreparedScan& scan = *found.candidate.scan;
   SurfaceMesh& surface = found.candidate.mesh;
   LocalRefinementOptions options;
   options.least_angle_deg = least_angle_deg;
@@ -67,29 +68,28 @@ void bring_within(Found& found, PreparedScan& scan, double deviation, const Prog
         refine_within(surface, found.candidate.net, scan.reference(), options, progress);
     if (scan.is_closed())
       preserve_volume_clear(surface, scan.mesh, held_lines(found.candidate.net, surface.vertices.size()));
-    found.result.largest_deviation = bound_deviation(surface, scan.mesh, {.limit = deviation}).upper();
+    found.candidate.largest_deviation = bound_deviation(surface, scan.mesh, {.limit = deviation}).upper();
     if (found.holds(deviation) || refined.largest_deviation > options.limit) break;
   }
-  found.result.faces_after = surface.triangles.size();
-  found.result.feature_edges_kept = edges_of(found.candidate.net).size();
   found.mean_edge_ratio = measure_triangles(surface).edge_ratio.mean;
 }
 
 // A surface with edges of about these lengths, and how far it is from the scan around each of the scan's vertices.
-Found try_lengths(const std::vector<double>& length, const SimplifyResult& given, PreparedScan& scan, double distance,
+Found try_lengths(const std::vector<double>& length, const PreparedScanPointer& scan, double distance,
                   double most_triangles, const SimplifyOptions& options, Effort effort, std::vector<double>& deviation,
                   const Progress& progress) {
   SizingOptions sizing;
   sizing.gradation = options.gradation;
-  ask_for_lengths(scan.mesh, length, sizing);
+  ask_for_lengths(scan->mesh, length, sizing);
   sizing.triangles = std::clamp(sizing.triangles, fewest_faces, most_triangles);
-  Found found{.candidate = {}, .result = given};
+  Found found;
   found.is_largest = sizing.triangles >= most_triangles;
-  found.candidate = make_surface(scan, sizing, options, effort, found.result, progress);
-  const DeviationBound bound = bound_deviation(found.candidate.mesh, scan.mesh, {.limit = distance});
-  deviation = scan.by_vertex(local_deviation(found.candidate.mesh, scan.reference(), bound),
+  found.candidate = make_surface(scan, sizing, options, effort, progress);
+  const PreparedScan& kept = *found.candidate.scan;
+  const DeviationBound bound = bound_deviation(found.candidate.mesh, scan->mesh, {.limit = distance});
+  deviation = kept.by_vertex(deviation_at_scan(found.candidate.mesh, kept.reference(), bound),
                              [](double a, double b) { return std::max(a, b); });
-  found.result.largest_deviation = bound.upper();
+  found.candidate.largest_deviation = bound.upper();
   found.share_beyond = share_beyond(bound.to_reference, distance);
   found.mean_edge_ratio = measure_triangles(found.candidate.mesh).edge_ratio.mean;
   return found;
@@ -116,15 +116,10 @@ double most_growing_after(int trial, double mean_edge_ratio) {
   return std::max(0.75, std::sqrt((worst_mean_edge_ratio - aim - 1) / (mean_edge_ratio - 1)));
 }
 
-}  // namespace
-
-Candidate make_surface_within(PreparedScan& scan, const LargestDeviation& wanted, double most_triangles,
-                              std::span<const double> longest, const SimplifyOptions& options, SimplifyResult& result,
-                              const Progress& progress) {
-  const double distance = wanted.distance;
-  const SimplifyResult given = result;
-  std::vector<FeatureEdge> creases = scan.features().sharp;
-  std::vector<double> length(scan.mesh.vertices.size(), first_edge_over_deviation * distance);
+// The nearest of the surfaces tried, or the one with fewest triangles where several are near enough.
+Found search_lengths(PreparedScanPointer scan, double distance, double most_triangles, std::span<const double> longest,
+                     const SimplifyOptions& options, const Progress& progress) {
+  std::vector<double> length(scan->mesh.vertices.size(), first_edge_over_deviation * distance);
   const auto keep_within_limits = [&] {
     for (std::size_t v = 0; v < longest.size(); ++v) length[v] = std::min(length[v], longest[v]);
   };
@@ -135,46 +130,49 @@ Candidate make_surface_within(PreparedScan& scan, const LargestDeviation& wanted
   for (int trial = 0; trial < most_trials; ++trial) {
     progress("deviation", static_cast<double>(trial) / most_trials);
     const bool first = trial == 0;
-    Found found = try_lengths(length, given, scan, distance, most_triangles, options,
-                              first ? Effort::low : options.effort, deviation, progress);
-    const bool failed = !found.result.fallback_reason.empty();
+    Found found = try_lengths(length, scan, distance, most_triangles, options, first ? Effort::low : options.effort,
+                              deviation, progress);
+    const bool failed = found.gave_way();
     if (!first && !failed && found.is_shapely() && found.share_beyond <= few_beyond && !found.holds(distance))
-      bring_within(found, scan, distance, progress);
+      bring_within(found, distance, progress);
     const bool done = !first && found.holds(distance) && (found.is_shapely() || found.is_largest);
     const bool is_in_vain = failed || found.is_largest;
     const double most_growing = most_growing_after(trial, found.mean_edge_ratio);
+    // What was too fine for the first guess need not be for the next, nor for other triangles of about the same size.
+    if (!first && !failed) scan = found.candidate.scan;
     if (is_better(found, best, distance)) best = std::move(found);
     if (done || (is_in_vain && failures++ == most_failures)) break;
-    // What was too fine for the first guess need not be for the next, nor for other triangles of about the same size.
-    if (!first && !failed)
-      creases = scan.features().sharp;
-    else if (scan.features().sharp != creases)
-      scan.keep_creases(creases);
     if (failed && !first)
       for (double& l : length) l *= after_failure;
     else
       renew(length, deviation, distance, most_growing);
     keep_within_limits();
   }
-  if (!best.holds(distance) && best.share_beyond <= most_beyond) bring_within(best, scan, distance, progress);
+  return best;
+}
+
+}  // namespace
+
+Candidate make_surface_within(const PreparedScanPointer& scan, const LargestDeviation& wanted, double most_triangles,
+                              std::span<const double> longest, const SimplifyOptions& options,
+                              const Progress& progress) {
+  const double distance = wanted.distance;
+  Found best = search_lengths(scan, distance, most_triangles, longest, options, progress);
+  if (!best.holds(distance) && best.share_beyond <= most_beyond) bring_within(best, distance, progress);
   // The deviation that was asked for comes before the tetrahedra.
   Candidate opened = best.candidate;
-  if (open_wedges(opened, scan, options)) {
-    const double reached = bound_deviation(opened.mesh, scan.mesh, {.limit = distance}).upper();
-    if (!wanted.required || reached <= distance) {
-      best.candidate = std::move(opened);
-      best.result.largest_deviation = reached;
-    }
+  if (open_wedges(opened, options)) {
+    opened.largest_deviation = bound_deviation(opened.mesh, scan->mesh, {.limit = distance}).upper();
+    if (!wanted.required || opened.largest_deviation <= distance) best.candidate = std::move(opened);
   }
   if (wanted.required && !best.holds(distance))
     throw NotMeshable({.what = "the deviation was not reached",
                        .where = {},
-                       .value = std::to_string(best.result.largest_deviation) + " with " +
-                                std::to_string(best.result.faces_after) + " triangles",
+                       .value = std::to_string(best.candidate.largest_deviation) + " with " +
+                                std::to_string(best.candidate.faces()) + " triangles",
                        .limit = std::to_string(distance),
                        .advice = "a larger --deviation, or --faces"});
-  result = best.result;
-  return best.candidate;
+  return std::move(best.candidate);
 }
 
 }  // namespace scan2fea

@@ -18,11 +18,11 @@ inline constexpr double first_edge_over_deviation = 12;
 // them as they are.
 inline constexpr double curves_over_deviation = 0.9;
 
-// `most_triangles`: no surface gets more, but where patches need some. `longest`: edges allowed, per vertex of the
-// scan, or nothing. `result.largest_deviation` is a bound for all points. Throws NotMeshable where the deviation is
-// required and was not reached, and what make_surface throws.
-Candidate make_surface_within(PreparedScan& scan, const LargestDeviation& wanted, double most_triangles,
-                              std::span<const double> longest, const SimplifyOptions& options, SimplifyResult& result,
+// `wanted`: in model units. `most_triangles`: no surface gets more, but where patches need some. `longest`: edges
+// allowed, per vertex of the scan, or nothing. The candidate's `largest_deviation` is a bound for all points. Throws
+// NotMeshable where the deviation is required and was not reached, and what make_surface throws.
+Candidate make_surface_within(const PreparedScanPointer& scan, const LargestDeviation& wanted, double most_triangles,
+                              std::span<const double> longest, const SimplifyOptions& options,
                               const Progress& progress);
 
 }  // namespace scan2fea

@@ -1,52 +1,51 @@
-// A scan with its creases and borders, made ready to be simplified again and again.
+// A scan made ready to be simplified again and again.
 #pragma once
 
 #include "preproc/surface/features/feature_scan.hpp"
 #include "preproc/surface/fit/reference_surface.hpp"
 #include "preproc/surface/sizing/sizing_field.hpp"
 
+#include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace scan2fea {
 
-// The scan, and what the stages after the lattice ask of it: made when the first of them does, since beside the graph
-// of the fields it would be the peak of the memory.
+// The scan with the creases that a surface made of it is to keep. It never changes; where a surface can keep only some
+// of the creases, another one stands beside it (with_creases). It refers to the mesh, which must outlive it.
 class PreparedScan {
  public:
-  // `sharp`: its creases.
-  PreparedScan(const SurfaceMesh& surface, std::vector<FeatureEdge> sharp, const CurveTolerance& tolerance_of_curves)
-      : mesh(surface), features_(std::in_place, surface, std::move(sharp), tolerance_of_curves) {}
+  PreparedScan(const SurfaceMesh& surface, std::vector<FeatureEdge> creases, const CurveTolerance& tolerance_of_curves)
+      : mesh(surface), features_(surface, std::move(creases), tolerance_of_curves) {}
 
-  const ReferenceSurface& reference() {
+  const FeatureScan& features() const { return features_; }
+  const std::vector<FeatureEdge>& creases() const { return features_.sharp; }
+  bool has_features() const { return !features_.empty(); }  // creases or borders
+  bool has_creases() const { return !features_.sharp.empty(); }
+  bool is_closed() const { return features_.border.empty(); }
+
+  // What the stages after the lattice ask of the scan. The first call makes it, since beside the graph of the lattice's
+  // fields it would be the peak of the memory; not for several threads at once.
+  const ReferenceSurface& reference() const {
     if (!reference_) {
       if (has_features())
-        reference_.emplace(*features_);
+        reference_.emplace(features_);
       else
         reference_.emplace(mesh);
     }
     return *reference_;
   }
-  const FeatureScan& features() const { return *features_; }
-  bool has_features() const { return !features_->empty(); }  // creases or borders
-  bool has_creases() const { return !features_->sharp.empty(); }
-  bool is_closed() const { return features_->border.empty(); }
 
   // Edge lengths that the sizing asks for, per vertex.
   std::vector<double> wanted_lengths(const SizingOptions& sizing) const {
-    return compute_sizing_field(mesh, sizing, has_features() ? &features_->cut : nullptr).edge_length;
-  }
-
-  // From here on there are only these.
-  void keep_creases(std::vector<FeatureEdge> sharp) {
-    reference_.reset();
-    features_.emplace(mesh, std::move(sharp), CurveTolerance(features_->tolerance));
+    return compute_sizing_field(mesh, sizing, has_features() ? &features_.cut : nullptr).edge_length;
   }
 
   // What the reference's vertices have, by vertex of the scan: of the copies at a crease, the one that `wins`.
   template <class Wins>
   std::vector<double> by_vertex(std::vector<double> of_reference, const Wins& wins) const {
-    const std::vector<std::uint32_t>& vertex = features_->cut.vertex_of_copy;
+    const std::vector<std::uint32_t>& vertex = features_.cut.vertex_of_copy;
     for (std::size_t c = mesh.vertices.size(); c < of_reference.size(); ++c)
       of_reference[vertex[c]] = wins(of_reference[vertex[c]], of_reference[c]);
     of_reference.resize(mesh.vertices.size());
@@ -56,8 +55,16 @@ class PreparedScan {
   const SurfaceMesh& mesh;
 
  private:
-  std::optional<FeatureScan> features_;
-  std::optional<ReferenceSurface> reference_;
+  FeatureScan features_;
+  mutable std::optional<ReferenceSurface> reference_;
 };
+
+using PreparedScanPointer = std::shared_ptr<const PreparedScan>;
+
+// The same scan with other creases; itself where they are the same.
+inline PreparedScanPointer with_creases(const PreparedScanPointer& scan, std::vector<FeatureEdge> creases) {
+  if (creases == scan->creases()) return scan;
+  return std::make_shared<const PreparedScan>(scan->mesh, std::move(creases), scan->features().tolerance);
+}
 
 }  // namespace scan2fea

@@ -45,71 +45,88 @@ int patience(std::size_t triangles) {
                                            : most_in_vain_of_very_many;
 }
 
+// A surface of the search, and what counts when it is held against another.
+struct ShapedSurface {
+  Candidate candidate;
+  ShapeDefects defects;
+  bool lost_creases = false;   // all that it was to keep
+  bool is_other_part = false;  // a small part without its edges is another part
+
+  bool gave_way() const { return !candidate.fallback_reason.empty(); }
+  bool is_better_than(const ShapedSurface& other) const {
+    return is_other_part == other.is_other_part ? is_better(defects, other.defects) : other.is_other_part;
+  }
+  bool gains_over(const ShapedSurface& other) const {
+    return (other.is_other_part && !is_other_part) || defects.sharpest() > other.defects.sharpest() + worth_it_deg;
+  }
+  // What cannot be kept but by smaller triangles everywhere.
+  bool has_many_bad() const {
+    return static_cast<double>(defects.bad.size()) > share_of_many * static_cast<double>(candidate.faces());
+  }
+};
+
+ShapedSurface try_sizing(const PreparedScanPointer& scan, const SizingOptions& sizing, double wanted_triangles,
+                         const SimplifyOptions& options, const Progress& progress) {
+  ShapedSurface made{.candidate = make_surface(scan, sizing, options, options.effort, progress), .defects = {}};
+  if (made.candidate.method == SimplifyMethod::lattice) lower_worst(made.candidate, options.effort, progress);
+  open_wedges(made.candidate, options);
+  made.defects = find_shape_defects(made.candidate);
+  made.lost_creases = scan->has_creases() && made.candidate.feature_edges() == 0;
+  made.is_other_part = made.lost_creases && wanted_triangles < few_triangles_of_part;
+  return made;
+}
+
+bool is_good_enough(const ShapedSurface& made) {
+  if (made.defects.empty() && !made.is_other_part) return true;
+  return made.candidate.faces() >= many_triangles && !made.gave_way() && made.defects.sharpest() >= good_of_many_deg;
+}
+
+// The creases to ask for after this surface: none where they would ask for smaller triangles everywhere though few are
+// bad without them, and no corners too narrow for a triangle.
+PreparedScanPointer creases_after(const ShapedSurface& made, const PreparedScanPointer& scan) {
+  if (made.lost_creases && !made.gave_way() && !made.has_many_bad() && !made.is_other_part)
+    return with_creases(scan, {});
+  return with_creases(scan, without_narrow_corners(scan->mesh, scan->creases(), made.defects.sharp_corners));
+}
+
+// Around what is bad, or everywhere where that is the surface as a whole.
+void shorten_after(const ShapedSurface& made, const SurfaceMesh& scan, double gradation, std::vector<double>& length) {
+  if (made.gave_way() || (made.lost_creases && made.has_many_bad()) || made.is_other_part)
+    for (double& l : length) l *= least_shortening;
+  else
+    shorten_around(made.defects.bad, scan, length);
+  limit_gradation(scan, gradation, length);
+}
+
 }  // namespace
 
-Candidate make_shaped_surface(PreparedScan& scan, const SizingOptions& sizing, const SimplifyOptions& options,
-                              SimplifyResult& result, const Progress& progress) {
+Candidate make_shaped_surface(PreparedScanPointer scan, const SizingOptions& sizing, const SimplifyOptions& options,
+                              const Progress& progress) {
   const double most =
       std::max(most_triangles * sizing.triangles, std::min(few_triangles, most_triangles_of_small * sizing.triangles));
-  std::vector<FeatureEdge> creases = scan.features().sharp;
-  SizingOptions renewed = sizing;
+  ShapedSurface best = try_sizing(scan, sizing, sizing.triangles, options, progress);
+  if (options.method != SimplifyMethod::lattice) return std::move(best.candidate);
+  ShapedSurface latest = best;
   std::vector<double> length;
-  Candidate best;
-  ShapeDefects best_defects;
-  bool best_is_other_part = false;
-  SimplifyResult best_result;
-  for (int renewal = 0, in_vain = 0;; ++renewal) {
-    SimplifyResult made = result;
-    Candidate candidate;
-    try {
-      candidate = make_surface(scan, renewed, options, options.effort, made, progress);
-    } catch (const NotMeshable&) {
-      if (renewal == 0) throw;
-      break;
-    }
-    if (made.method == SimplifyMethod::lattice) lower_worst(candidate, scan, options.effort, made, progress);
-    open_wedges(candidate, scan, options);
-    const ShapeDefects defects = find_shape_defects(candidate);
-    const std::size_t triangles = candidate.mesh.triangles.size();
-    const bool lattice_failed = !made.fallback_reason.empty();
-    const bool lost_creases = !creases.empty() && made.feature_edges_kept == 0;
-    // A small part without its edges is another part.
-    const bool is_other_part = lost_creases && sizing.triangles < few_triangles_of_part;
-    const bool is_best =
-        renewal == 0 || (best_is_other_part == is_other_part ? is_better(defects, best_defects) : best_is_other_part);
-    const bool gained = renewal == 0 || (best_is_other_part && !is_other_part) ||
-                        defects.sharpest() > best_defects.sharpest() + worth_it_deg;
-    in_vain = gained ? 0 : in_vain + 1;
-    if (is_best) {
-      best_is_other_part = is_other_part;
-      best = std::move(candidate);
-      best_defects = defects;
-      best_result = std::move(made);
-    }
-    if (options.method != SimplifyMethod::lattice || (defects.empty() && !is_other_part) || renewal == most_renewals)
-      break;
-    if (triangles >= many_triangles && !lattice_failed && defects.sharpest() >= good_of_many_deg) break;
-    if (in_vain > patience(triangles)) break;
-
-    if (length.empty()) length = scan.wanted_lengths(sizing);
-    // What cannot be kept but by smaller triangles everywhere is not asked for again where few are bad without it.
-    const bool many_bad = static_cast<double>(defects.bad.size()) > share_of_many * static_cast<double>(triangles);
-    if (lost_creases && !lattice_failed && !many_bad && !is_other_part) creases.clear();
-    creases = without_narrow_corners(scan.mesh, creases, defects.sharp_corners);
-    scan.keep_creases(creases);
-    if (lattice_failed || (lost_creases && many_bad) || is_other_part)
-      for (double& l : length) l *= least_shortening;
-    else
-      shorten_around(defects.bad, scan.mesh, length);
-    limit_gradation(scan.mesh, gradation_around_bad * sizing.gradation, length);
-    ask_for_lengths(scan.mesh, length, renewed);
+  SizingOptions renewed = sizing;
+  for (int renewal = 0, in_vain = 0; renewal < most_renewals && !is_good_enough(latest); ++renewal) {
+    if (in_vain > patience(latest.candidate.faces())) break;
+    if (length.empty()) length = latest.candidate.scan->wanted_lengths(sizing);
+    scan = creases_after(latest, scan);
+    shorten_after(latest, scan->mesh, gradation_around_bad * sizing.gradation, length);
+    ask_for_lengths(scan->mesh, length, renewed);
     // A few places cost the others little.
     if (renewed.triangles < room_for_places * sizing.triangles) renewed.triangles = sizing.triangles;
     if (renewed.triangles > most) break;
+    try {
+      latest = try_sizing(scan, renewed, sizing.triangles, options, progress);
+    } catch (const NotMeshable&) {
+      break;
+    }
+    in_vain = latest.gains_over(best) ? 0 : in_vain + 1;
+    if (latest.is_better_than(best)) best = latest;
   }
-  result = std::move(best_result);
-  result.faces_after = best.mesh.triangles.size();
-  return best;
+  return std::move(best.candidate);
 }
 
 }  // namespace scan2fea

@@ -15,7 +15,7 @@ namespace scan2fea {
 // well shaped first surface costs one pass over its triangles, with three searches each; large ones are renewed only
 // below 17 degrees, as long as each renewal gains. Throws what make_surface throws where not even the first surface can
 // be made.
-Candidate make_shaped_surface(PreparedScan& scan, const SizingOptions& sizing, const SimplifyOptions& options,
-                              SimplifyResult& result, const Progress& progress);
+Candidate make_shaped_surface(PreparedScanPointer scan, const SizingOptions& sizing, const SimplifyOptions& options,
+                              const Progress& progress);
 
 }  // namespace scan2fea

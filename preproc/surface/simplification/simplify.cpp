@@ -47,36 +47,36 @@ double most_triangles_of(const SurfaceMesh& scan) {
   return 32 * static_cast<double>(scan.triangles.size());
 }
 
-double wanted_faces(const TargetSize& size, const SurfaceMesh& scan) {
-  if (const auto* count = std::get_if<FaceCount>(&size)) return static_cast<double>(count->faces);
-  if (const auto* ratio = std::get_if<FaceRatio>(&size))
-    return ratio->of_input * static_cast<double>(scan.triangles.size());
-  const double length = std::get<MeanEdgeLength>(size).length;
-  require_positive(length, "the edge length");
-  return surface_area(scan) / (equilateral_area * length * length);
+double wanted_faces(const TargetSize& size, const SurfaceMesh& scan, double area) {
+  double faces = 0;
+  if (const auto* count = std::get_if<FaceCount>(&size)) {
+    faces = static_cast<double>(count->faces);
+  } else if (const auto* ratio = std::get_if<FaceRatio>(&size)) {
+    faces = ratio->of_input * static_cast<double>(scan.triangles.size());
+  } else {
+    const double length = std::get<MeanEdgeLength>(size).length;
+    require_positive(length, "the edge length");
+    faces = area / (equilateral_area * length * length);
+  }
+  require_positive(faces, "the number of triangles");
+  return std::max(faces, fewest_faces);
 }
 
 // Of the result, about.
-double typical_edge(const TargetSize& size, const SurfaceMesh& scan) {
+double typical_edge(const TargetSize& size, const SurfaceMesh& scan, double area) {
   if (const auto* bound = std::get_if<LargestDeviation>(&size)) {
     require_positive(bound->distance, "the deviation");
-    const double shortest = equilateral_edge(surface_area(scan), most_triangles_of(scan));
-    return std::max(first_edge_over_deviation * bound->distance, shortest);
+    return std::max(first_edge_over_deviation * bound->distance, equilateral_edge(area, most_triangles_of(scan)));
   }
-  return equilateral_edge(surface_area(scan), std::max(wanted_faces(size, scan), fewest_faces));
+  return equilateral_edge(area, wanted_faces(size, scan, area));
 }
 
-// Those that the result is to keep; what was found is told.
-Features features_to_keep(const SurfaceMesh& mesh, const SimplifyOptions& options, double edge,
-                          SimplifyResult& result) {
-  Features features;
-  if (options.method == SimplifyMethod::lattice) {
-    features = find_features(mesh, options.given_features ? FeatureOptions{.angle_deg = {}} : options.features);
-    if (options.given_features) features.edges = match_features(mesh, *options.given_features);
-  }
-  result.feature_edges = features.edges.size();
-  result.features = lines_of(mesh, features.edges);
-  if (!options.given_features) features.edges = select_features(mesh, std::move(features.edges), edge);
+// Those of the scan that were found or given.
+Features features_of(const SurfaceMesh& mesh, const SimplifyOptions& options) {
+  if (options.method != SimplifyMethod::lattice) return {};
+  if (!options.given_features) return find_features(mesh, options.features);
+  Features features = find_features(mesh, {.angle_deg = {}});  // for the noise
+  features.edges = match_features(mesh, *options.given_features);
   return features;
 }
 
@@ -90,9 +90,8 @@ CurveTolerance tolerance_of_curves(const SurfaceMesh& mesh, const TargetSize& si
 
 // Faces of CAD are far larger than the result's, and so are a scan's where more triangles are asked for than it has;
 // searches for what is near want them alike. Nothing where the scan's own are fine enough.
-std::optional<SurfaceMesh> with_smaller_faces(const SurfaceMesh& mesh, const SimplifyOptions& options, double edge,
-                                              std::vector<FeatureEdge>& features) {
-  const double area = surface_area(mesh);
+std::optional<SurfaceMesh> with_smaller_faces(const SurfaceMesh& mesh, const SimplifyOptions& options, double area,
+                                              double edge, std::vector<FeatureEdge>& features) {
   const bool few_faces =
       options.method == SimplifyMethod::lattice && !std::holds_alternative<LargestDeviation>(options.size) &&
       area > equilateral_area * edge * edge * largest_face * static_cast<double>(mesh.triangles.size());
@@ -105,22 +104,28 @@ std::optional<SurfaceMesh> with_smaller_faces(const SurfaceMesh& mesh, const Sim
   return parted;
 }
 
-// Lowers the lengths that the sizing asks for, and asks for those. Keeps a reference to `length`.
-void keep_within(const PreparedScan& scan, const std::vector<double>& longest, const SimplifyOptions& options,
-                 SizingOptions& sizing, std::vector<double>& length, SimplifyResult& result) {
+// A surface, and where it has more triangles than were asked for, why.
+struct MadeSurface {
+  Candidate candidate;
+  std::string size_remark;
+};
+
+// Lowers the lengths that the sizing asks for, and asks for those. Keeps a reference to `length`. Returns a remark
+// where they need more triangles.
+std::string keep_within(const PreparedScan& scan, const std::vector<double>& longest, const SimplifyOptions& options,
+                        SizingOptions& sizing, std::vector<double>& length) {
   const double wanted = sizing.triangles;
   const bool keeps_count = !std::holds_alternative<MeanEdgeLength>(options.size);
   length = within_limits(scan.mesh, scan.wanted_lengths(sizing), longest, options.gradation,
                          keeps_count ? std::optional(wanted) : std::nullopt);
   ask_for_lengths(scan.mesh, length, sizing);
-  if (keeps_count && sizing.triangles > 1.01 * wanted)
-    result.size_remark = "boxes, balls and elements across walls need about " +
-                         std::to_string(std::lround(sizing.triangles)) + " triangles instead of " +
-                         std::to_string(std::lround(wanted));
+  if (!keeps_count || sizing.triangles <= 1.01 * wanted) return {};
+  return "boxes, balls and elements across walls need about " + std::to_string(std::lround(sizing.triangles)) +
+         " triangles instead of " + std::to_string(std::lround(wanted));
 }
 
-SurfaceMesh make_surface_of(double triangles, PreparedScan& scan, const std::vector<double>& longest,
-                            const SimplifyOptions& options, SimplifyResult& result, const Progress& progress) {
+MadeSurface make_surface_of(double triangles, PreparedScanPointer scan, const std::vector<double>& longest,
+                            const SimplifyOptions& options, const Progress& progress) {
   SizingOptions sizing;
   sizing.triangles = triangles;
   sizing.sizing = options.sizing;
@@ -129,49 +134,86 @@ SurfaceMesh make_surface_of(double triangles, PreparedScan& scan, const std::vec
   if (options.sizing == Sizing::error) {
     // A quick first surface shows where edges of the curvature's lengths come too far from the scan.
     sizing.sizing = Sizing::curvature;
-    const SurfaceMesh first = make_surface(scan, sizing, options, Effort::low, result, progress).mesh;
-    factors = scan.by_vertex(error_factors(first, scan.reference(), error_renewal),
-                             [](double a, double b) { return std::min(a, b); });
+    const Candidate first = make_surface(scan, sizing, options, Effort::low, progress);
+    scan = first.scan;  // creases that it could not keep are not asked for again
+    factors = scan->by_vertex(error_factors(first.mesh, scan->reference(), error_renewal),
+                              [](double a, double b) { return std::min(a, b); });
     sizing.factors = factors;
   }
-  if (!longest.empty()) keep_within(scan, longest, options, sizing, length, result);
-  Candidate candidate = options.for_tetrahedra ? make_shaped_surface(scan, sizing, options, result, progress)
-                                               : make_surface(scan, sizing, options, options.effort, result, progress);
-  if (!options.for_tetrahedra && result.method == SimplifyMethod::lattice)
-    lower_worst(candidate, scan, options.effort, result, progress);
-  if (const auto made = static_cast<double>(candidate.mesh.triangles.size()); made > 1.01 * sizing.triangles + 1)
-    result.size_remark = "triangles of the wanted size cannot be well shaped everywhere: made " +
-                         std::to_string(candidate.mesh.triangles.size()) + " instead of " +
-                         std::to_string(std::lround(sizing.triangles));
-  return std::move(candidate.mesh);
+  MadeSurface made;
+  if (!longest.empty()) made.size_remark = keep_within(*scan, longest, options, sizing, length);
+  if (options.for_tetrahedra) {
+    made.candidate = make_shaped_surface(scan, sizing, options, progress);
+  } else {
+    made.candidate = make_surface(scan, sizing, options, options.effort, progress);
+    if (made.candidate.method == SimplifyMethod::lattice) lower_worst(made.candidate, options.effort, progress);
+  }
+  if (static_cast<double>(made.candidate.faces()) > 1.01 * sizing.triangles + 1)
+    made.size_remark = "triangles of the wanted size cannot be well shaped everywhere: made " +
+                       std::to_string(made.candidate.faces()) + " instead of " +
+                       std::to_string(std::lround(sizing.triangles));
+  return made;
 }
 
-}  // namespace
+// What became of the creases that were to be kept.
+std::string feature_remark(std::size_t wanted, std::size_t kept) {
+  if (kept >= wanted) return {};
+  const std::string too_large = "triangles of the wanted size are too large for the creases: ";
+  if (kept == 0) return too_large + "none is kept";
+  return too_large + std::to_string(wanted - kept) + " of " + std::to_string(wanted) + " edges of creases are not kept";
+}
 
-SimplifyResult simplify(const SurfaceMesh& mesh, SurfaceMesh& surface, const SimplifyOptions& options,
-                        const Progress& progress) {
+void check_options(const SimplifyOptions& options) {
   if (options.method == SimplifyMethod::collapse && !options.limits.empty())
     throw WrongUsage({.what = "boxes, balls and elements across walls need the lattice method",
                       .where = {},
                       .value = {},
                       .limit = {},
                       .advice = "--method lattice"});
+}
+
+}  // namespace
+
+TargetSize in_model_units(const TargetSize& size, const BoundingBox& scan) {
+  const auto* bound = std::get_if<LargestDeviation>(&size);
+  if (bound == nullptr || bound->unit == LargestDeviation::Unit::model) return size;
+  return LargestDeviation{.distance = bound->distance * scan.diagonal(), .required = bound->required};
+}
+
+SimplifyResult simplify(const SurfaceMesh& mesh, SurfaceMesh& surface, const SimplifyOptions& options,
+                        const Progress& progress) {
+  check_options(options);
+  const TargetSize size = in_model_units(options.size, bounding_box(mesh.vertices));
+  const double area = surface_area(mesh);
+  const double edge = typical_edge(size, mesh, area);
+  Features features = features_of(mesh, options);
   SimplifyResult result;
   result.faces_before = mesh.triangles.size();
-  const double edge = typical_edge(options.size, mesh);
-  Features features = features_to_keep(mesh, options, edge, result);
-  const CurveTolerance tolerance = tolerance_of_curves(mesh, options.size, features.noise);
-  const std::optional<SurfaceMesh> parted = with_smaller_faces(mesh, options, edge, features.edges);
-  PreparedScan scan(parted ? *parted : mesh, std::move(features.edges), tolerance);
+  result.feature_edges = features.edges.size();
+  result.features = lines_of(mesh, features.edges);
+
+  if (!options.given_features) features.edges = select_features(mesh, std::move(features.edges), edge);
+  const CurveTolerance tolerance = tolerance_of_curves(mesh, size, features.noise);
+  const std::optional<SurfaceMesh> parted = with_smaller_faces(mesh, options, area, edge, features.edges);
+  const auto scan = std::make_shared<const PreparedScan>(parted ? *parted : mesh, std::move(features.edges), tolerance);
   std::vector<double> longest;
-  if (!options.limits.empty()) longest = longest_edges(scan.mesh, options.limits, longest_edge_of_part * edge);
-  if (const auto* bound = std::get_if<LargestDeviation>(&options.size)) {
-    surface = make_surface_within(scan, *bound, most_triangles_of(mesh), longest, options, result, progress).mesh;
-  } else {
-    const double faces = wanted_faces(options.size, mesh);
-    require_positive(faces, "the number of triangles");
-    surface = make_surface_of(std::max(faces, fewest_faces), scan, longest, options, result, progress);
-  }
+  if (!options.limits.empty()) longest = longest_edges(scan->mesh, options.limits, longest_edge_of_part * edge);
+  const auto* bound = std::get_if<LargestDeviation>(&size);
+  MadeSurface made =
+      bound != nullptr
+          ? MadeSurface{make_surface_within(scan, *bound, most_triangles_of(mesh), longest, options, progress), {}}
+          : make_surface_of(wanted_faces(size, mesh, area), scan, longest, options, progress);
+
+  const Candidate& candidate = made.candidate;
+  result.method = candidate.method;
+  result.fallback_reason = candidate.fallback_reason;
+  result.faces_after = candidate.faces();
+  result.crossings_mended = candidate.crossings_mended;
+  result.largest_deviation = candidate.largest_deviation;
+  result.feature_edges_kept = candidate.feature_edges();
+  result.feature_remark = feature_remark(scan->creases().size(), candidate.scan->creases().size());
+  result.size_remark = std::move(made.size_remark);
+  surface = std::move(made.candidate.mesh);
   return result;
 }
 

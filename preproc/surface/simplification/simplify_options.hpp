@@ -26,10 +26,18 @@ struct MeanEdgeLength {
   double length;  // model units
 };
 struct LargestDeviation {
-  double distance;       // two-sided Hausdorff distance to the scan, model units, bounded for all points
+  enum class Unit {
+    model,
+    of_diagonal,  // of the scan's bounding box; run_pipeline takes that of the scan as it was given
+  };
+  double distance;  // two-sided Hausdorff distance to the scan, > 0, bounded for all points
+  Unit unit = Unit::model;
   bool required = true;  // false: where it is not reached, the nearest surface found is given
 };
 using TargetSize = std::variant<FaceCount, FaceRatio, MeanEdgeLength, LargestDeviation>;
+
+// The same size; a deviation that is a part of the diagonal in model units.
+TargetSize in_model_units(const TargetSize& size, const BoundingBox& scan);
 
 enum class SimplifyMethod {
   collapse,  // the paper's: contractions predicted by a cost, vertices placed by a star objective
@@ -38,7 +46,8 @@ enum class SimplifyMethod {
 
 struct SimplifyOptions {
   SimplifyMethod method = SimplifyMethod::lattice;
-  TargetSize size = FaceRatio{0.13};
+  // An aim and no bound: nothing is refused that can be meshed at all, and where it is not reached, the result says so.
+  TargetSize size = LargestDeviation{.distance = 0.002, .unit = LargestDeviation::Unit::of_diagonal, .required = false};
   Effort effort = Effort::normal;
   Sizing sizing = Sizing::curvature;
   double gradation = 0.12;  // largest |grad h| of the edge length h, 0.02 to 1; smaller is smoother

@@ -76,8 +76,8 @@ std::string describe(const SurfaceDefects& defects) {
 }
 
 // Exact volume, mending, and flips of what it leaves without area.
-void finish(Candidate& candidate, PreparedScan& scan, double largest_inverted_share, const MendOptions& options,
-            const Progress& progress) {
+void finish(Candidate& candidate, double largest_inverted_share, const MendOptions& options, const Progress& progress) {
+  const PreparedScan& scan = *candidate.scan;
   try {
     MendOptions mending = options;
     mending.least_angle_deg = least_angle_deg;
@@ -103,14 +103,15 @@ void finish(Candidate& candidate, PreparedScan& scan, double largest_inverted_sh
   }
 }
 
-Candidate by_lattice(PreparedScan& scan, const SizingOptions& sizing, const FitPlan& plan, double strength_factor,
-                     const Progress& progress) {
+Candidate by_lattice(const PreparedScanPointer& prepared, const SizingOptions& sizing, const FitPlan& plan,
+                     double strength_factor, const Progress& progress) {
+  const PreparedScan& scan = *prepared;
   LatticeOptions lattice_options;
   lattice_options.sizing = sizing;
   lattice_options.sizing.strength *= strength_factor;
   LatticeResult lattice = scan.has_features() ? remesh_by_lattice(scan.features(), lattice_options, progress)
                                               : remesh_by_lattice(scan.mesh, lattice_options, progress);
-  Candidate candidate;
+  Candidate candidate{.mesh = {}, .net = {}, .scan = prepared};
   // Where features need more triangles than were asked for, they get them.
   candidate.failure = scan.has_features() ? "" : lattice.failure;
   if (!candidate.failure.empty()) return candidate;
@@ -135,11 +136,11 @@ Candidate by_lattice(PreparedScan& scan, const SizingOptions& sizing, const FitP
     mending.fidelity_of_diagonal = candidate.fit.fidelity_of_diagonal;
     mending.loosest_fidelity_of_diagonal = 2 * candidate.fit.fidelity_of_diagonal;
   }
-  finish(candidate, scan, plan.largest_inverted_share(), mending, progress);
+  finish(candidate, plan.largest_inverted_share(), mending, progress);
   return candidate;
 }
 
-Candidate best_by_lattice(PreparedScan& scan, const SizingOptions& sizing, const FitPlan& plan,
+Candidate best_by_lattice(const PreparedScanPointer& scan, const SizingOptions& sizing, const FitPlan& plan,
                           const Progress& progress) {
   if (plan.trials == 1) return by_lattice(scan, sizing, plan, 1, progress);
   constexpr double strength_step = 0.03;
@@ -165,12 +166,13 @@ Candidate best_by_lattice(PreparedScan& scan, const SizingOptions& sizing, const
 // Where the lattice gives way: contractions towards the same sizing, none of which makes faces meet, then the same fit.
 // Where the fit ends in crossings that cannot be mended, vertices go only as far towards it as nothing meets, and
 // where the shape needs more triangles than were asked for, it keeps them: this way always ends in a sound surface.
-Candidate by_contraction(PreparedScan& scan, const SizingOptions& sizing, const FitPlan& plan,
+Candidate by_contraction(const PreparedScanPointer& prepared, const SizingOptions& sizing, const FitPlan& plan,
                          const Progress& progress) {
+  const PreparedScan& scan = *prepared;
   // Long triangles, as CAD makes them, are no start for even ones.
   RefinedScan refined = refine_scan(scan.mesh, compute_sizing_field(scan.mesh, sizing), longest_edge_to_contract);
-  Candidate contracted;
-  contracted.mesh = std::move(refined.mesh);
+  Candidate contracted{
+      .mesh = std::move(refined.mesh), .net = {}, .scan = prepared, .method = SimplifyMethod::collapse};
   CollapseOptions collapse_options;
   collapse_options.target_faces = static_cast<std::size_t>(std::lround(sizing.triangles));
   collapse_options.cost = CollapseCost::sized_length;
@@ -189,7 +191,7 @@ Candidate by_contraction(PreparedScan& scan, const SizingOptions& sizing, const 
   if (plan.within_deviation) fit.hold_faces_below = 1;
   optimise_shape_and_fit(fitted.mesh, scan.reference(), fit, progress);
   const std::vector<Vec3> targets = fitted.mesh.vertices;
-  finish(fitted, scan, plan.largest_inverted_share(), {}, progress);
+  finish(fitted, plan.largest_inverted_share(), {}, progress);
   if (fitted.failure.empty()) return fitted;
 
   SurfaceMesh near_fit = contracted.mesh;
@@ -199,81 +201,69 @@ Candidate by_contraction(PreparedScan& scan, const SizingOptions& sizing, const 
 }
 
 // The paper's method as it is; only what passes through itself is mended.
-Candidate by_collapse(PreparedScan& scan, double faces, const SimplifyOptions& options, const Progress& progress) {
+Candidate by_collapse(const PreparedScanPointer& scan, double faces, const SimplifyOptions& options,
+                      const Progress& progress) {
   CollapseOptions collapse_options = options.collapse;
   collapse_options.target_faces = static_cast<std::size_t>(std::lround(faces));
-  Candidate candidate;
-  candidate.mesh = scan.mesh;
+  Candidate candidate{.mesh = scan->mesh, .net = {}, .scan = scan, .method = SimplifyMethod::collapse};
   collapse(candidate.mesh, collapse_options, progress);
   MendOptions mending;
   mending.least_angle_deg = 0;
   mending.keep_volume = false;
-  const MendResult mended = mend_surface(candidate.mesh, scan.reference(), mending, progress);
+  const MendResult mended = mend_surface(candidate.mesh, scan->reference(), mending, progress);
   candidate.crossings_mended = mended.before.crossings.size();
   // It may end in needles that turn over, as the paper's does; what is sound for a mesher crosses nothing.
   if (!mended.after.crossings.empty()) candidate.failure = describe(mended.after);
   return candidate;
 }
 
-// Gives up the short creases near the places where a surface failed: whether there were some.
-bool drop_short_creases(PreparedScan& scan, const Candidate& failed) {
+// The scan without the short creases near the places where a surface failed.
+PreparedScanPointer without_short_creases(const Candidate& failed) {
   constexpr double longest = 0.5;  // of the diagonal: the folds of a scan, not the edges of a part
   constexpr double reach = 2;      // mean edges
-  const double edge = equilateral_edge(surface_area(failed.mesh), static_cast<double>(failed.mesh.triangles.size()));
-  std::vector<FeatureEdge> left =
-      without_short_creases_near(scan.mesh, scan.features().sharp, failed.failed_at, reach * edge,
-                                 longest * bounding_box(scan.mesh.vertices).diagonal());
-  if (left.size() == scan.features().sharp.size()) return false;
-  scan.keep_creases(std::move(left));
-  return true;
+  const PreparedScan& scan = *failed.scan;
+  const double edge = equilateral_edge(surface_area(failed.mesh), static_cast<double>(failed.faces()));
+  return with_creases(failed.scan, without_short_creases_near(scan.mesh, scan.creases(), failed.failed_at, reach * edge,
+                                                              longest * bounding_box(scan.mesh.vertices).diagonal()));
 }
 
 // The lattice with the creases; where triangles of the wanted size are too large for them, without the short ones, with
 // smaller triangles, or without any.
-Candidate by_lattice_with_creases(PreparedScan& scan, SizingOptions sizing, const FitPlan& plan, SimplifyResult& result,
+Candidate by_lattice_with_creases(PreparedScanPointer scan, SizingOptions sizing, const FitPlan& plan,
                                   const Progress& progress) {
   constexpr int most_trials = 4;
   constexpr int most_larger = 1;  // times
   constexpr double growth = 1.6;  // of the number of triangles
   const double wanted = sizing.triangles;
-  const std::size_t creases = scan.features().sharp.size();
-  const std::string too_large = "triangles of the wanted size are too large for the creases: ";
   int larger = 0;
-  for (int trial = 0; trial < most_trials && scan.has_creases(); ++trial) {
+  for (int trial = 0; trial < most_trials && scan->has_creases(); ++trial) {
     Candidate candidate = best_by_lattice(scan, sizing, plan, progress);
-    if (candidate.failure.empty()) {
-      const std::size_t kept = scan.features().sharp.size();
-      if (kept < creases)
-        result.feature_remark = too_large + std::to_string(creases - kept) + " of " + std::to_string(creases) +
-                                " edges of creases are not kept";
-      return candidate;
+    if (candidate.failure.empty()) return candidate;
+    const PreparedScanPointer fewer = without_short_creases(candidate);
+    if (fewer == scan) {
+      if (larger++ == most_larger) break;
+      sizing.triangles *= growth;
     }
-    if (drop_short_creases(scan, candidate)) continue;
-    if (larger++ == most_larger) break;
-    sizing.triangles *= growth;
+    scan = fewer;
   }
-  result.feature_remark = too_large + "none is kept";
-  scan.keep_creases({});
   sizing.triangles = wanted;
-  return best_by_lattice(scan, sizing, plan, progress);
+  return best_by_lattice(with_creases(scan, {}), sizing, plan, progress);
 }
 
 }  // namespace
 
-Candidate make_surface(PreparedScan& scan, const SizingOptions& sizing, const SimplifyOptions& options, Effort effort,
-                       SimplifyResult& result, const Progress& progress) {
-  result.method = options.method;
-  result.fallback_reason.clear();
+Candidate make_surface(const PreparedScanPointer& scan, const SizingOptions& sizing, const SimplifyOptions& options,
+                       Effort effort, const Progress& progress) {
   FitPlan plan = plan_of(effort);
   plan.within_deviation = std::holds_alternative<LargestDeviation>(options.size);
   Candidate candidate = options.method == SimplifyMethod::collapse
                             ? by_collapse(scan, sizing.triangles, options, progress)
-                        : scan.has_creases() ? by_lattice_with_creases(scan, sizing, plan, result, progress)
-                                             : best_by_lattice(scan, sizing, plan, progress);
+                        : scan->has_creases() ? by_lattice_with_creases(scan, sizing, plan, progress)
+                                              : best_by_lattice(scan, sizing, plan, progress);
   if (!candidate.failure.empty() && options.method == SimplifyMethod::lattice) {
-    result.method = SimplifyMethod::collapse;
-    result.fallback_reason = candidate.failure;
-    candidate = by_contraction(scan, sizing, plan, progress);
+    std::string reason = std::move(candidate.failure);
+    candidate = by_contraction(candidate.scan, sizing, plan, progress);
+    candidate.fallback_reason = std::move(reason);
   }
   if (!candidate.failure.empty())
     throw NotMeshable({.what = "no valid surface of this size: " + candidate.failure,
@@ -281,31 +271,27 @@ Candidate make_surface(PreparedScan& scan, const SizingOptions& sizing, const Si
                        .value = std::to_string(std::lround(sizing.triangles)) + " triangles",
                        .limit = {},
                        .advice = "more triangles (--faces, or a smaller --edge-length or --deviation)"});
-  result.crossings_mended = candidate.crossings_mended;
-  result.faces_after = candidate.mesh.triangles.size();
-  result.feature_edges_kept = edges_of(candidate.net).size();
   return candidate;
 }
 
-void lower_worst(Candidate& candidate, PreparedScan& scan, Effort effort, SimplifyResult& result,
-                 const Progress& progress) {
+void lower_worst(Candidate& candidate, Effort effort, const Progress& progress) {
   constexpr double outlier = 14;             // over the RMS distance; 10 takes more shape than it gives
   constexpr double vertices_a_face = 0.001;  // at most 0.2 % more triangles
   constexpr std::size_t faces_a_place = 1500;
+  const PreparedScan& scan = *candidate.scan;
   LocalRefinementOptions options;
   options.limit = outlier * candidate.fit.rms_distance;
   if (!plan_of(effort).lowers_worst || !(options.limit > 0) || scan.has_features()) return;
   options.least_angle_deg = least_angle_deg;
-  options.most_vertices = static_cast<std::size_t>(vertices_a_face * static_cast<double>(result.faces_after));
-  options.most_places = 1 + result.faces_after / faces_a_place;
+  options.most_vertices = static_cast<std::size_t>(vertices_a_face * static_cast<double>(candidate.faces()));
+  options.most_places = 1 + candidate.faces() / faces_a_place;
   SurfaceMesh refined = candidate.mesh;
   refine_worst(refined, scan.reference(), candidate.fit.largest_distance_of_face, options, progress);
-  if (!preserve_volume_clear(refined, scan.mesh)) return;
-  candidate.mesh = std::move(refined);
-  result.faces_after = candidate.mesh.triangles.size();
+  if (preserve_volume_clear(refined, scan.mesh)) candidate.mesh = std::move(refined);
 }
 
-bool open_wedges(Candidate& candidate, PreparedScan& scan, const SimplifyOptions& options) {
+bool open_wedges(Candidate& candidate, const SimplifyOptions& options) {
+  const PreparedScan& scan = *candidate.scan;
   if (!options.for_tetrahedra || options.method != SimplifyMethod::lattice || scan.has_creases()) return false;
   return open_wedges(candidate.mesh, scan.reference(),
                      {.keep_volume = scan.is_closed(),

@@ -15,27 +15,36 @@ namespace scan2fea {
 // A closed surface needs four faces; fewer than this and no shape is left of anything.
 inline constexpr double fewest_faces = 4;
 
+// A surface that was made of a scan, and how.
 struct Candidate {
   SurfaceMesh mesh;
   FeatureNet net;
+  PreparedScanPointer scan;  // with the creases that `mesh` keeps
+  SimplifyMethod method = SimplifyMethod::lattice;
+  std::string fallback_reason = {};  // why `lattice` gave way to `collapse`; empty where it did not
   std::size_t crossings_mended = 0;
-  std::string failure;          // empty where `mesh` is valid
-  std::vector<Vec3> failed_at;  // places of what is wrong
-  ShapeFitResult fit;
+  std::string failure = {};          // empty where `mesh` is valid
+  std::vector<Vec3> failed_at = {};  // places of what is wrong
+  ShapeFitResult fit = {};
+  double largest_deviation = 0;  // from the scan, two-sided, an upper bound; 0 where it was not bounded
+
+  std::size_t faces() const { return mesh.triangles.size(); }
+  std::size_t feature_edges() const { return edges_of(net).size(); }
 };
 
-// By the method asked for or, where the lattice fails, by contraction; the result's method and remarks say which, and
-// what became of the creases. Exact volume, and nothing that crosses itself. Throws NotMeshable where no way is left.
-Candidate make_surface(PreparedScan& scan, const SizingOptions& sizing, const SimplifyOptions& options, Effort effort,
-                       SimplifyResult& result, const Progress& progress);
+// By the method asked for or, where the lattice fails, by contraction. Where triangles of this size are too large for
+// the scan's creases, the candidate's scan has those that could be kept. Exact volume, and nothing that crosses itself.
+// Throws NotMeshable where no way is left.
+Candidate make_surface(const PreparedScanPointer& scan, const SizingOptions& sizing, const SimplifyOptions& options,
+                       Effort effort, const Progress& progress);
 
 // The largest distances are at a few fins and folds thinner than the triangles, far from all others: these places get
-// triangles of their own, so few that the count stays within what was asked for. Where the effort asks for it.
-void lower_worst(Candidate& candidate, PreparedScan& scan, Effort effort, SimplifyResult& result,
-                 const Progress& progress);
+// triangles of their own, so few that the count stays within what was asked for. Where the effort asks for it, and not
+// on scans with features.
+void lower_worst(Candidate& candidate, Effort effort, const Progress& progress);
 
 // What bounds the tetrahedra's angles, where that is asked for (see wedges.hpp); what is sharp in the scan stays so.
 // Whether something was opened.
-bool open_wedges(Candidate& candidate, PreparedScan& scan, const SimplifyOptions& options);
+bool open_wedges(Candidate& candidate, const SimplifyOptions& options);
 
 }  // namespace scan2fea
