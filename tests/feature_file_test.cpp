@@ -30,7 +30,7 @@ TEST(FeatureFile, EdgesOfAScanComeBackAsThemselves) {
   for (Vec3& v : scan.vertices) v = v / 3 + Vec3(0.1, 1e6, -1e-7);
   const std::vector<FeatureEdge> edges = find_features(scan).edges;
   write_feature_lines(lines_of(scan, edges), folder / "edges.obj");
-  EXPECT_EQ(match_features(scan, read_feature_lines(folder / "edges.obj")), edges);
+  EXPECT_EQ(match_features(scan, VertexStars(scan), read_feature_lines(folder / "edges.obj")), edges);
 }
 
 TEST(FeatureFile, PolylinesAndRelativeIndicesAreRead) {
@@ -47,7 +47,8 @@ TEST(FeatureFile, NoLinesAreNoFeatures) {
   const TemporaryFolder folder;
   write_feature_lines({}, folder / "none.obj");
   EXPECT_TRUE(read_feature_lines(folder / "none.obj").segments.empty());
-  EXPECT_TRUE(match_features(analytic::sphere(1, 2), {}).empty());
+  const SurfaceMesh ball = analytic::sphere(1, 2);
+  EXPECT_TRUE(match_features(ball, VertexStars(ball), {}).empty());
 }
 
 TEST(FeatureFile, BrokenLinesAreNamed) {
@@ -62,7 +63,8 @@ TEST(FeatureFile, BrokenLinesAreNamed) {
 
 TEST(MatchFeatures, ALongLineIsFollowedAlongItsEdge) {
   const SurfaceMesh box = analytic::box({4, 3, 2}, 0.25);
-  const std::vector<FeatureEdge> edges = match_features(box, {{Vec3(0, 0.001, 0), Vec3(4, 0, -0.001)}, {{0, 1}}});
+  const std::vector<FeatureEdge> edges =
+      match_features(box, VertexStars(box), {{Vec3(0, 0.001, 0), Vec3(4, 0, -0.001)}, {{0, 1}}});
   EXPECT_EQ(edges.size(), 16U);
   for (const FeatureEdge& e : edges)
     for (const std::uint32_t v : e) EXPECT_EQ(box.vertices[v].tail<2>(), Eigen::Vector2d(0, 0));
@@ -71,20 +73,20 @@ TEST(MatchFeatures, ALongLineIsFollowedAlongItsEdge) {
 TEST(MatchFeatures, ALineBesideTheScanIsAnError) {
   const SurfaceMesh box = analytic::box({4, 3, 2}, 0.25);
   EXPECT_THAT(message_of([&] {
-                match_features(box, {{Vec3(0, 0, 0), Vec3(4, 0, 0.1)}, {{0, 1}}});
+                match_features(box, VertexStars(box), {{Vec3(0, 0, 0), Vec3(4, 0, 0.1)}, {{0, 1}}});
               }),
               HasSubstr("(4, 0, 0.1)"));
   // Both ends are corners, but the way between them is the box's inside.
   EXPECT_THAT(message_of([&] {
-                match_features(box, {{Vec3(0, 0, 0), Vec3(4, 3, 2)}, {{0, 1}}});
+                match_features(box, VertexStars(box), {{Vec3(0, 0, 0), Vec3(4, 3, 2)}, {{0, 1}}});
               }),
               HasSubstr("(2, 1.5, 1)"));
 }
 
 TEST(MatchFeatures, BordersAreKeptAnyway) {
   const SurfaceMesh sheet = analytic::sheet(4, 3, 0.5);
-  const std::vector<FeatureEdge> edges =
-      match_features(sheet, {{Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 1, 0), Vec3(4, 1, 0)}, {{0, 1}, {2, 3}}});
+  const std::vector<FeatureEdge> edges = match_features(
+      sheet, VertexStars(sheet), {{Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 1, 0), Vec3(4, 1, 0)}, {{0, 1}, {2, 3}}});
   EXPECT_EQ(edges.size(), 8U);
   for (const FeatureEdge& e : edges) EXPECT_EQ(sheet.vertices[e[0]][1], 1);
 }

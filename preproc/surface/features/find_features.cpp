@@ -86,10 +86,10 @@ std::vector<CreaseEdge> crease_edges(const SurfaceMesh& scan, const std::vector<
 }  // namespace
 
 Features find_features(const SurfaceMesh& scan, const FeatureOptions& options) {
-  const VertexStars stars(scan);
-  const std::vector<Triangle> neighbours = face_neighbours(scan, stars);
+  const MeshAdjacency adjacency(scan);
+  const auto& [stars, neighbours] = adjacency;
   Features result;
-  result.noise = estimate_noise(scan, stars);
+  result.noise = estimate_noise(scan, adjacency);
   if (!options.angle_deg) return result;
 
   double continuation_deg = std::min(options.continuation_angle_deg, *options.angle_deg);

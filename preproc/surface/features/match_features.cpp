@@ -3,6 +3,7 @@
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/error_text.hpp"
 #include "preproc/surface/kernel/adjacency.hpp"
+#include "preproc/surface/kernel/cut_surface.hpp"
 #include "preproc/surface/kernel/nearest.hpp"
 
 #include <algorithm>
@@ -79,13 +80,12 @@ std::vector<std::uint32_t> shortest_way(const SurfaceMesh& scan, const VertexSta
 
 }  // namespace
 
-std::vector<FeatureEdge> match_features(const SurfaceMesh& scan, const FeatureLines& lines,
+std::vector<FeatureEdge> match_features(const SurfaceMesh& scan, const VertexStars& stars, const FeatureLines& lines,
                                         const MatchOptions& options) {
   if (lines.segments.empty()) return {};
   const double tolerance = options.farthest_of_diagonal * bounding_box(scan.vertices).diagonal();
   const std::vector<Vec3> no_normals(lines.points.size(), Vec3::Zero());
   const std::vector<std::uint32_t> nearest = nearest_vertices(lines.points, no_normals, scan, 0);
-  const VertexStars stars(scan);
   std::vector<FeatureEdge> edges;
   for (const auto& [from, to] : lines.segments) {
     const Segment line{lines.points[from], lines.points[to]};
@@ -103,14 +103,7 @@ std::vector<FeatureEdge> match_features(const SurfaceMesh& scan, const FeatureLi
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
 
-  std::vector<FeatureEdge> border;
-  const std::vector<Triangle> neighbours = face_neighbours(scan, stars);
-  for (std::size_t f = 0; f < neighbours.size(); ++f)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto [low, high] = std::minmax(scan.triangles[f][(k + 1) % 3], scan.triangles[f][(k + 2) % 3]);
-      if (neighbours[f][k] == no_face) border.push_back({low, high});
-    }
-  std::sort(border.begin(), border.end());
+  const std::vector<FeatureEdge> border = boundary_edges(scan);
   std::erase_if(edges, [&](const FeatureEdge& e) { return std::binary_search(border.begin(), border.end(), e); });
   return edges;
 }

@@ -19,7 +19,7 @@ struct MatchOptions {
 // the line; an edge of the scan is found again as itself. Border edges are left out, since they are kept anyway.
 // Sorted, each once. Precondition: the scan is manifold. Throws InvalidInput naming the place of a line that no edges
 // follow. Each line costs a search among the vertices near it.
-std::vector<FeatureEdge> match_features(const SurfaceMesh& scan, const FeatureLines& lines,
+std::vector<FeatureEdge> match_features(const SurfaceMesh& scan, const VertexStars& stars, const FeatureLines& lines,
                                         const MatchOptions& options = {});
 
 }  // namespace scan2fea

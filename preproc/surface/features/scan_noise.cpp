@@ -98,8 +98,7 @@ std::vector<double> quadric_residuals(const SurfaceMesh& scan, const VertexStars
 }
 
 // The heights of corners over the planes of faces that they are not of but whose edge they see, likewise.
-std::vector<double> heights_over_neighbours(const SurfaceMesh& scan, const VertexStars& stars) {
-  const std::vector<Triangle> neighbours = face_neighbours(scan, stars);
+std::vector<double> heights_over_neighbours(const SurfaceMesh& scan, const std::vector<Triangle>& neighbours) {
   std::vector<double> result;
   const std::size_t n = scan.triangles.size();
   for (std::size_t f = 0; f < n; f += std::max<std::size_t>(1, n / sampled)) {
@@ -129,15 +128,15 @@ double quantile(std::vector<double>& values, double share) {
 
 }  // namespace
 
-double estimate_noise(const SurfaceMesh& scan, const VertexStars& stars) {
+double estimate_noise(const SurfaceMesh& scan, const MeshAdjacency& adjacency) {
   // The median and the first decile of a normal distribution's absolute value, in standard deviations.
   constexpr double median = 0.6745, first_decile = 0.1257;
-  std::vector<double> heights = quadric_residuals(scan, stars);
-  if (heights.size() >= std::min(stars.vertex_count(), sampled) / 20 && !heights.empty())
+  std::vector<double> heights = quadric_residuals(scan, adjacency.stars);
+  if (heights.size() >= std::min(adjacency.stars.vertex_count(), sampled) / 20 && !heights.empty())
     return quantile(heights, 0.5) / median;
   // Creases, or noise that looks like them, are everywhere: judge by the flattest of pairs of faces, of which a part
   // made of facets has many.
-  heights = heights_over_neighbours(scan, stars);
+  heights = heights_over_neighbours(scan, adjacency.neighbours);
   return heights.empty() ? 0 : quantile(heights, 0.1) / first_decile;
 }
 

@@ -10,6 +10,6 @@ namespace scan2fea {
 // quadrics through vertices' two rings, on a sample of some hundred, those near creases aside. Where creases, facets of
 // more than 30° or noise of a fifth of an edge are everywhere it is a guess from the flattest pairs of faces. 0 where
 // there is nothing to go by.
-double estimate_noise(const SurfaceMesh& scan, const VertexStars& stars);
+double estimate_noise(const SurfaceMesh& scan, const MeshAdjacency& adjacency);
 
 }  // namespace scan2fea

@@ -42,6 +42,14 @@ class VertexStars {
 // and across an edge that is not shared by exactly two triangles of opposite direction. Linear in the mesh.
 std::vector<Triangle> face_neighbours(const SurfaceMesh& mesh, const VertexStars& stars);
 
+// Both, for stages that hand them on. Linear in the mesh.
+struct MeshAdjacency {
+  explicit MeshAdjacency(const SurfaceMesh& mesh) : stars(mesh), neighbours(face_neighbours(mesh, stars)) {}
+
+  VertexStars stars;
+  std::vector<Triangle> neighbours;
+};
+
 // Unit normals; zero for a triangle without area.
 std::vector<Vec3> face_normals(const SurfaceMesh& mesh);
 

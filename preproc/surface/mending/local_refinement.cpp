@@ -65,8 +65,8 @@ struct FarPoints {
 
 // Raises the deviation of the faces to which the points belong.
 void attribute(const FarPoints& far, const SurfaceMesh& mesh, double edge, std::vector<double>& deviation) {
-  const VertexStars stars(mesh);
-  const std::vector<Triangle> neighbours = face_neighbours(mesh, stars);
+  const MeshAdjacency adjacency(mesh);
+  const auto& [stars, neighbours] = adjacency;
   const std::vector<Vec3> normals = face_normals(mesh);
   const WalkableMesh on{mesh, stars, neighbours, normals};
   const std::vector<std::uint32_t> start = nearest_vertices(far.points, far.normals, mesh, edge);

@@ -37,8 +37,8 @@ std::vector<double> averaged(const SurfaceMesh& mesh, const std::vector<double>&
 
 std::vector<double> error_factors(const SurfaceMesh& mesh, const ReferenceSurface& scan, double exponent,
                                   double least) {
-  const VertexStars stars(mesh);
-  const std::vector<Triangle> neighbours = face_neighbours(mesh, stars);
+  const MeshAdjacency adjacency(mesh);
+  const auto& [stars, neighbours] = adjacency;
   const std::vector<Vec3> normals = face_normals(mesh);
   const WalkableMesh on{mesh, stars, neighbours, normals};
   const double edge = scan.mean_edge(mesh.triangles.size());

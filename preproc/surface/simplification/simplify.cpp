@@ -3,6 +3,8 @@
 #include "preproc/mesh/error.hpp"
 #include "preproc/surface/features/feature_selection.hpp"
 #include "preproc/surface/features/match_features.hpp"
+#include "preproc/surface/features/scan_noise.hpp"
+#include "preproc/surface/kernel/adjacency.hpp"
 #include "preproc/surface/simplification/deviation_search.hpp"
 #include "preproc/surface/simplification/error_sizing.hpp"
 #include "preproc/surface/simplification/shape_search.hpp"
@@ -75,9 +77,8 @@ double typical_edge(const TargetSize& size, const SurfaceMesh& scan, double area
 Features features_of(const SurfaceMesh& mesh, const SimplifyOptions& options) {
   if (options.method != SimplifyMethod::lattice) return {};
   if (!options.given_features) return find_features(mesh, options.features);
-  Features features = find_features(mesh, {.angle_deg = {}});  // for the noise
-  features.edges = match_features(mesh, *options.given_features);
-  return features;
+  const MeshAdjacency adjacency(mesh);
+  return {match_features(mesh, adjacency.stars, *options.given_features), estimate_noise(mesh, adjacency)};
 }
 
 CurveTolerance tolerance_of_curves(const SurfaceMesh& mesh, const TargetSize& size, double noise) {
