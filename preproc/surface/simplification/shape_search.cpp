@@ -10,19 +10,39 @@
 namespace scan2fea {
 namespace {
 
-constexpr double gradation_around_bad = 2;  // over the surface's
+// Around bad places edge lengths may grow this many times as fast as elsewhere: at the surface's own gradation a few
+// short edges would drag those of a whole neighbourhood along.
+constexpr double gradation_around_bad = 2;
+
+// Each renewal shortens by a quarter at the least, so eleven could shorten 23 times; most_triangles and patience end
+// the search long before.
 constexpr int most_renewals = 11;
-// In a row, without a gain that is worth it: of few triangles, of many, of very many.
-constexpr int most_in_vain = 3, most_in_vain_of_many = 1, most_in_vain_of_very_many = 0;
-constexpr double worth_it_deg = 0.5;
+
+// Renewals without a gain, one after the other, after which it is given up. Another lattice may turn out better by
+// chance, which is worth waiting for only where it costs little.
 constexpr std::size_t many_triangles = 5000, very_many_triangles = 20000;
-constexpr double good_of_many_deg = 17;   // what the tetrahedra's optimisation copes with, where time matters
-constexpr double room_for_places = 1.05;  // over the triangles wanted
-// Of the triangles, that are bad.
+constexpr int most_in_vain = 3, most_in_vain_of_many = 1, most_in_vain_of_very_many = 0;
+
+// Two lattices of nearly the same sizes differ by about this; a smaller gain is chance.
+constexpr double worth_it_deg = 0.5;
+
+// Above many_triangles only surfaces below this are renewed: where time matters, the optimisation of the tetrahedra
+// copes with the rest.
+constexpr double good_of_many_deg = 17;
+
+// Where the shorter lengths ask for fewer triangles more than this, the other edges grow to make up for them.
+constexpr double room_for_places = 1.05;
+
+// With more bad triangles than this the size as a whole is wrong, not places.
 constexpr double share_of_many = 0.1;
-// Over those wanted; and what a small part may have in any case.
+
+// Wanted with fewer triangles than this, a part without its edges stands for nothing any more: edges go before angles.
 constexpr double few_triangles_of_part = 1000;
+
+// No more triangles than these times the wanted ones. A small part may have 8,000, which cost nothing, but not more
+// than forty times: somebody who asks for 20 does not want 8,000.
 constexpr double most_triangles = 3, few_triangles = 8000, most_triangles_of_small = 40;
+
 // Corners of the part stay about as they are; what else is bad decides then.
 bool is_better(const ShapeDefects& defects, const ShapeDefects& other) {
   if (std::abs(defects.sharpest() - other.sharpest()) > worth_it_deg) return defects.sharpest() > other.sharpest();

@@ -19,20 +19,25 @@
 namespace scan2fea {
 namespace {
 
-// Of a scan with creases, over the result's mean edge.
+// A scan with creases is halved to edges of so many mean edges of the result: what looks for a vertex or a face near by
+// finds one within an edge or two.
 constexpr double longest_edge_of_part = 1.5;
 
-// The scan's mean face over the result's, above which its edges are halved, too.
+// Where the scan's mean face has more than this part of the result's area, its edges are halved, too: with larger ones
+// the lattice gave way.
 constexpr double largest_face = 0.3;
 
 // Where few triangles are asked for, make_shaped_surface may want to make about so many.
 constexpr double triangles_of_small_part = 4000;
 
-// How far the result's edges may be from the curves: of the diagonal, and over the scan's noise.
+// How far the result's edges may be from the curves, of the diagonal: a chord of a circle with a radius of a tenth of
+// it then spans 6 degrees at the most. Under noise the curves themselves are known no better than noise_on_curves times
+// it.
 constexpr double curve_tolerance = 0.00014;
 constexpr double noise_on_curves = 1.5;
 
-// Of the edge lengths' renewal, over the local error (see error_factors).
+// Exponent of the local error in the edge lengths' renewal (see error_factors). Equal errors everywhere would take 0.5;
+// less leaves shape to the gradation.
 constexpr double error_renewal = 0.3;
 
 void require_positive(double value, const char* what) {
