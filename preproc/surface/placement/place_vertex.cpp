@@ -1,5 +1,7 @@
 #include "preproc/surface/placement/place_vertex.hpp"
 
+#include "preproc/surface/placement/nelder_mead.hpp"
+
 #include <Eigen/Core>
 
 #include <algorithm>
@@ -7,7 +9,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <utility>
 #include <vector>
 
 namespace scan2fea {
@@ -106,43 +107,6 @@ Vec2 minimise_by_newton(const PlaneCost& cost, double start_cost, int steps) {
     if (gain < 1e-6 * (1 + std::abs(current))) break;
   }
   return x;
-}
-
-Vec2 minimise_by_simplex(const PlaneCost& cost, double start_cost, double size, int evaluations) {
-  struct Corner {
-    Vec2 x;
-    double cost;
-  };
-  const auto at = [&](const Vec2& x) {
-    --evaluations;
-    return Corner{x, cost(x)};
-  };
-  // Stable: corners of equal cost keep their order, so that the search is the same everywhere.
-  const auto by_cost = [](const Corner& a, const Corner& b) { return a.cost < b.cost; };
-  std::array<Corner, 3> simplex{Corner{Vec2::Zero(), start_cost}, at(Vec2(size, 0)), at(Vec2(0, size))};
-  while (evaluations > 0) {
-    std::stable_sort(simplex.begin(), simplex.end(), by_cost);
-    auto& [best, middle, worst] = simplex;
-    if ((worst.x - best.x).norm() < 1e-4 * size) break;
-    const Vec2 base = 0.5 * (best.x + middle.x);
-    const Corner reflected = at(base + (base - worst.x));
-    if (reflected.cost < best.cost) {
-      const Corner expanded = at(base + 2 * (base - worst.x));
-      worst = expanded.cost < reflected.cost ? expanded : reflected;
-    } else if (reflected.cost < middle.cost) {
-      worst = reflected;
-    } else {
-      const bool outside = reflected.cost < worst.cost;
-      const Corner contracted = at(base + (outside ? 0.5 : -0.5) * (base - worst.x));
-      if (contracted.cost < std::min(reflected.cost, worst.cost)) {
-        worst = contracted;
-      } else {
-        middle = at(0.5 * (best.x + middle.x));
-        worst = at(0.5 * (best.x + worst.x));
-      }
-    }
-  }
-  return std::min_element(simplex.begin(), simplex.end(), by_cost)->x;
 }
 
 double mean_radius(const Star& star) {
