@@ -1,6 +1,7 @@
 #include "preproc/surface/enrichment/enrich.hpp"
 
 #include "preproc/mesh/error.hpp"
+#include "preproc/surface/enrichment/importance.hpp"
 #include "preproc/surface/enrichment/side_normals.hpp"
 #include "preproc/surface/enrichment/surface_walk.hpp"
 #include "preproc/surface/kernel/delaunay_flips.hpp"
@@ -8,7 +9,6 @@
 #include "preproc/surface/placement/place_vertex.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -21,7 +21,6 @@ namespace {
 
 using Index = HalfedgeMesh::Index;
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double pi = std::numbers::pi;
 
 // In R_s; see the header.
 constexpr double placement_distance = 0.586;
@@ -36,9 +35,6 @@ constexpr double crease_deg = 60;
 
 // Measured points whose side turns more than 60 degrees from the new point's tangent plane tell nothing of its height.
 constexpr double smallest_sample_cosine = 0.5;
-
-// Neighbours whose normals look away more than this are on another sheet.
-constexpr double smallest_neighbour_cosine = -0.2;
 
 void check(const EnrichOptions& options) {
   const auto refuse = [](const char* what, double value, const char* limit) {
@@ -59,30 +55,6 @@ bool holds(const EnrichDomain& domain, const Vec3& p) {
   return true;
 }
 
-// Directions in a tangent plane, and which of its sectors of 60 degrees hold a point: where no two that adjoin are
-// empty, the points surround the origin.
-class TangentPlane {
- public:
-  TangentPlane(const Vec3& origin, const Vec3& normal) : origin_(origin) {
-    Eigen::Index axis;
-    normal.cwiseAbs().minCoeff(&axis);
-    u_ = normal.cross(Vec3::Unit(axis)).normalized();
-    v_ = normal.cross(u_);
-  }
-  double angle(const Vec3& p) const { return std::atan2((p - origin_).dot(v_), (p - origin_).dot(u_)); }
-  Vec3 direction(double angle) const { return std::cos(angle) * u_ + std::sin(angle) * v_; }
-  void add(const Vec3& p) { filled_[static_cast<std::size_t>((angle(p) + pi) / (2 * pi) * 6) % 6] = true; }
-  bool surrounded() const {
-    for (std::size_t i = 0; i < 6; ++i)
-      if (!filled_[i] && !filled_[(i + 1) % 6]) return false;
-    return true;
-  }
-
- private:
-  Vec3 origin_, u_, v_;
-  std::array<bool, 6> filled_{};
-};
-
 class Enricher {
  public:
   Enricher(const SurfaceMesh& mesh, const EnrichOptions& options)
@@ -90,6 +62,7 @@ class Enricher {
         options_(options),
         nearest_(mesh_),
         normals_(mesh_, crease_deg),
+        importance_(mesh_, normals_),
         original_count_(mesh_.vertex_slots()) {
     for (Index v = 0; v < mesh_.vertex_slots(); ++v)
       if (mesh_.is_alive(v) && holds(options.domain, mesh_.points[v])) domain_.push_back(v);
@@ -104,6 +77,7 @@ class Enricher {
 
   EnrichResult run(const Progress& progress) {
     result_.sampling_radius = radius_;
+    const ImportanceOptions condition{radius_, options_.most_neighbours, options_.empty_sector_deg};
     std::vector<Index> waiting = domain_;
     bool inserted = true;
     while (inserted && !waiting.empty() && radius_ > 0) {
@@ -113,7 +87,7 @@ class Enricher {
       const std::size_t known = domain_.size();
       std::vector<Index> not_content;
       for (const Index v : waiting) {
-        const std::vector<double> gaps = empty_sectors(v);
+        const std::vector<Vec3> gaps = importance_.empty_sectors(v, condition);
         if (gaps.empty()) continue;
         not_content.push_back(v);
         if (result_.added >= most_new_vertices_ || requests_[v] == most_requests) continue;
@@ -125,7 +99,7 @@ class Enricher {
       waiting.insert(waiting.end(), domain_.begin() + static_cast<std::ptrdiff_t>(known), domain_.end());
     }
     result_.domain_vertices = domain_.size();
-    for (const Index v : domain_) result_.content += empty_sectors(v).empty();
+    for (const Index v : domain_) result_.content += importance_.empty_sectors(v, condition).empty();
     if (result_.content < result_.domain_vertices)
       result_.stop = result_.added < options_.most_new_vertices ? EnrichStop::no_room : EnrichStop::too_many_vertices;
     return result_;
@@ -138,91 +112,11 @@ class Enricher {
   // points spread evenly, in equilateral triangles, would have the other spacing.
   double default_radius(double area) {
     const auto points = static_cast<double>(std::max<std::size_t>(1, original_count_));
-    return std::max(1.5 * median_spacing(), std::sqrt(2 / std::numbers::sqrt3 * area / points));
+    return std::max(1.5 * importance_.median_spacing(domain_), std::sqrt(2 / std::numbers::sqrt3 * area / points));
   }
 
-  double median_spacing() {
-    std::vector<double> spacing;
-    for (const Index v : domain_) {
-      std::size_t met = 0;
-      double sixth = infinity;
-      search_from(v, infinity, [&](Index, double distance) {
-        if (++met < 6) return true;
-        sixth = std::sqrt(distance);
-        return false;
-      });
-      if (std::isfinite(sixth)) spacing.push_back(sixth);
-    }
-    if (spacing.empty()) return 0;
-    const auto middle = spacing.begin() + static_cast<std::ptrdiff_t>(spacing.size() / 2);
-    std::nth_element(spacing.begin(), middle, spacing.end());
-    return *middle;
-  }
-
-  // Visits the vertices near v on its own sheet, v left out.
-  template <class Visit>
-  void search_from(Index v, double radius, Visit visit) {
-    const std::array<Index, 1> seed{v};
-    nearest_.search(
-        seed, mesh_.points[v], radius,
-        [&](Index w) { return normals_.mean(w).dot(normals_.mean(v)) > smallest_neighbour_cosine; },
-        [&](Index w, double distance) { return w == v || visit(w, distance); });
-  }
-
-  // The paper's importance function: the bisectors of the empty sectors, widest first, as angles in the plane of v;
-  // none where v is content.
-  std::vector<double> empty_sectors(Index v) {
-    const TangentPlane plane(mesh_.points[v], normals_.mean(v));
-    std::vector<double> angles;
-    search_from(v, radius_, [&](Index w, double) {
-      angles.push_back(plane.angle(mesh_.points[w]));
-      return angles.size() <= options_.most_neighbours;
-    });
-    if (angles.size() > options_.most_neighbours) return {};
-    if (angles.empty()) angles.push_back(plane.angle(far_end_of_longest_edge(v)));
-    if (mesh_.is_border_vertex(v)) fill_outside(v, plane, angles);
-    std::sort(angles.begin(), angles.end());
-
-    const double least = options_.empty_sector_deg * pi / 180;
-    std::vector<std::pair<double, double>> sectors;  // minus the width, bisector
-    for (std::size_t i = 0; i < angles.size(); ++i) {
-      const double next = i + 1 < angles.size() ? angles[i + 1] : angles[0] + 2 * pi;
-      if (next - angles[i] >= least) sectors.emplace_back(angles[i] - next, 0.5 * (angles[i] + next));
-    }
-    std::sort(sectors.begin(), sectors.end());
-    std::vector<double> bisectors;
-    for (const auto& [width, bisector] : sectors) bisectors.push_back(bisector);
-    return bisectors;
-  }
-
-  Vec3 far_end_of_longest_edge(Index v) const {
-    Vec3 far = mesh_.points[v];
-    double longest = 0;
-    mesh_.for_each_neighbour(v, [&](Index w) {
-      const double length = (mesh_.points[w] - mesh_.points[v]).norm();
-      if (length > longest) {
-        longest = length;
-        far = mesh_.points[w];
-      }
-    });
-    return far;
-  }
-
-  // Beyond a border nothing is missing: directions there count as taken.
-  void fill_outside(Index v, const TangentPlane& plane, std::vector<double>& angles) const {
-    Index last = HalfedgeMesh::none;
-    mesh_.for_each_neighbour(v, [&](Index w) { last = w; });
-    const double from = plane.angle(mesh_.points[last]);
-    double to = plane.angle(mesh_.points[mesh_.target(mesh_.outgoing(v))]);
-    if (to < from) to += 2 * pi;
-    for (double angle = from; angle < to; angle += 0.25 * pi) angles.push_back(std::remainder(angle, 2 * pi));
-    angles.push_back(std::remainder(to, 2 * pi));
-  }
-
-  bool fill_one_of(Index v, const std::vector<double>& bisectors) {
-    const TangentPlane plane(mesh_.points[v], normals_.mean(v));
-    for (const double angle : bisectors) {
-      const Vec3 direction = plane.direction(angle);
+  bool fill_one_of(Index v, const std::vector<Vec3>& bisectors) {
+    for (const Vec3& direction : bisectors) {
       const auto base = walk_straight(mesh_, v, normals_.mean(v), direction, placement_distance * radius_);
       if (base && insert(*base)) return true;
     }
@@ -307,7 +201,7 @@ class Enricher {
     // Beyond a thousand new points the measured ones are too far to tell.
     constexpr std::size_t wanted_samples = 10, most_samples = 60, most_visits = 1000;
     const Vec3 normal = normals_.mean(v);
-    TangentPlane sectors(base, normal);
+    FilledSectors sectors(base, normal);
     samples_.clear();
     double farthest = 0, closest = infinity;
     std::size_t visits = 0;
@@ -343,6 +237,7 @@ class Enricher {
   const EnrichOptions& options_;
   NearestOnSurface nearest_;
   SideNormals normals_;  // of the scan at its vertices; of a new one, interpolated where it was put
+  Importance importance_;
   std::size_t original_count_;
   double radius_ = 0;
   std::size_t most_new_vertices_ = 0;  // the option, or twice what packing leaves room for

@@ -1,0 +1,117 @@
+#include "preproc/surface/enrichment/importance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+namespace scan2fea {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double pi = std::numbers::pi;
+
+}  // namespace
+
+TangentPlane::TangentPlane(const Vec3& origin, const Vec3& normal) : origin_(origin) {
+  Eigen::Index axis;
+  normal.cwiseAbs().minCoeff(&axis);
+  u_ = normal.cross(Vec3::Unit(axis)).normalized();
+  v_ = normal.cross(u_);
+}
+
+double TangentPlane::angle(const Vec3& p) const {
+  return std::atan2((p - origin_).dot(v_), (p - origin_).dot(u_));
+}
+
+Vec3 TangentPlane::direction(double angle) const {
+  return std::cos(angle) * u_ + std::sin(angle) * v_;
+}
+
+void FilledSectors::add(const Vec3& p) {
+  filled_[static_cast<std::size_t>((plane_.angle(p) + pi) / (2 * pi) * 6) % 6] = true;
+}
+
+bool FilledSectors::surrounded() const {
+  for (std::size_t i = 0; i < 6; ++i)
+    if (!filled_[i] && !filled_[(i + 1) % 6]) return false;
+  return true;
+}
+
+template <class Visit>
+void Importance::search_from(Index v, double radius, Visit visit) {
+  const std::array<Index, 1> seed{v};
+  nearest_.search(
+      seed, mesh_.points[v], radius,
+      [&](Index w) { return normals_.mean(w).dot(normals_.mean(v)) > smallest_neighbour_cosine; },
+      [&](Index w, double distance) { return w == v || visit(w, distance); });
+}
+
+std::vector<Vec3> Importance::empty_sectors(Index v, const ImportanceOptions& options) {
+  const TangentPlane plane(mesh_.points[v], normals_.mean(v));
+  std::vector<double> angles;
+  search_from(v, options.sampling_radius, [&](Index w, double) {
+    angles.push_back(plane.angle(mesh_.points[w]));
+    return angles.size() <= options.most_neighbours;
+  });
+  if (angles.size() > options.most_neighbours) return {};
+  if (angles.empty()) angles.push_back(plane.angle(far_end_of_longest_edge(v)));
+  if (mesh_.is_border_vertex(v)) fill_outside(v, plane, angles);
+  std::sort(angles.begin(), angles.end());
+
+  const double least = options.empty_sector_deg * pi / 180;
+  std::vector<std::pair<double, double>> sectors;  // minus the width, bisector
+  for (std::size_t i = 0; i < angles.size(); ++i) {
+    const double next = i + 1 < angles.size() ? angles[i + 1] : angles[0] + 2 * pi;
+    if (next - angles[i] >= least) sectors.emplace_back(angles[i] - next, 0.5 * (angles[i] + next));
+  }
+  std::sort(sectors.begin(), sectors.end());
+  std::vector<Vec3> bisectors;
+  for (const auto& [width, bisector] : sectors) bisectors.push_back(plane.direction(bisector));
+  return bisectors;
+}
+
+double Importance::median_spacing(std::span<const Index> vertices) {
+  std::vector<double> spacing;
+  for (const Index v : vertices) {
+    std::size_t met = 0;
+    double sixth = infinity;
+    search_from(v, infinity, [&](Index, double distance) {
+      if (++met < 6) return true;
+      sixth = std::sqrt(distance);
+      return false;
+    });
+    if (std::isfinite(sixth)) spacing.push_back(sixth);
+  }
+  if (spacing.empty()) return 0;
+  const auto middle = spacing.begin() + static_cast<std::ptrdiff_t>(spacing.size() / 2);
+  std::nth_element(spacing.begin(), middle, spacing.end());
+  return *middle;
+}
+
+Vec3 Importance::far_end_of_longest_edge(Index v) const {
+  Vec3 far = mesh_.points[v];
+  double longest = 0;
+  mesh_.for_each_neighbour(v, [&](Index w) {
+    const double length = (mesh_.points[w] - mesh_.points[v]).norm();
+    if (length > longest) {
+      longest = length;
+      far = mesh_.points[w];
+    }
+  });
+  return far;
+}
+
+// Beyond a border nothing is missing: directions there count as taken.
+void Importance::fill_outside(Index v, const TangentPlane& plane, std::vector<double>& angles) const {
+  Index last = HalfedgeMesh::none;
+  mesh_.for_each_neighbour(v, [&](Index w) { last = w; });
+  const double from = plane.angle(mesh_.points[last]);
+  double to = plane.angle(mesh_.points[mesh_.target(mesh_.outgoing(v))]);
+  if (to < from) to += 2 * pi;
+  for (double angle = from; angle < to; angle += 0.25 * pi) angles.push_back(std::remainder(angle, 2 * pi));
+  angles.push_back(std::remainder(to, 2 * pi));
+}
+
+}  // namespace scan2fea
