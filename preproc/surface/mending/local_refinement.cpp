@@ -6,6 +6,7 @@
 #include "preproc/surface/kernel/parallel_blocks.hpp"
 #include "preproc/surface/mending/refinement_patch.hpp"
 #include "quality/deviation_bound.hpp"
+#include "quality/face_blocks.hpp"
 
 #include <tbb/parallel_for.h>
 
@@ -106,10 +107,6 @@ std::vector<Place> places_beyond(const std::vector<double>& deviation, double li
   return places;
 }
 
-bool apart(const BoundingBox& a, const BoundingBox& b) {
-  return (a.low.array() > b.high.array()).any() || (b.low.array() > a.high.array()).any();
-}
-
 // Per patch the faces of the scan in its box. A scan may have millions: whole blocks of them are told to be far away
 // by one box, since neighbours in a file are mostly neighbours in space.
 std::vector<std::vector<std::uint32_t>> scan_faces_near(const SurfaceMesh& scan,
@@ -118,16 +115,16 @@ std::vector<std::vector<std::uint32_t>> scan_faces_near(const SurfaceMesh& scan,
   std::vector<Hits> hits(parallel_block_count(scan.triangles.size()));
   for_each_block(scan.triangles.size(), [&](std::size_t first, std::size_t last) {
     std::vector<BoundingBox> boxes(last - first);
-    BoundingBox all = face_box(scan, scan.triangles[first]);
+    BoundingBox all = box_of_face(scan, static_cast<std::uint32_t>(first));
     for (std::size_t f = first; f < last; ++f) {
-      boxes[f - first] = face_box(scan, scan.triangles[f]);
+      boxes[f - first] = box_of_face(scan, static_cast<std::uint32_t>(f));
       all.low = all.low.cwiseMin(boxes[f - first].low);
       all.high = all.high.cwiseMax(boxes[f - first].high);
     }
     for (std::size_t p = 0; p < patches.size(); ++p) {
-      if (apart(all, patches[p].box())) continue;
+      if (!boxes_meet(all, patches[p].box())) continue;
       for (std::size_t f = first; f < last; ++f)
-        if (!apart(boxes[f - first], patches[p].box()))
+        if (boxes_meet(boxes[f - first], patches[p].box()))
           hits[first / parallel_block_size].emplace_back(static_cast<std::uint32_t>(p), static_cast<std::uint32_t>(f));
     }
   });
@@ -153,8 +150,9 @@ std::vector<Place> mend(SurfaceMesh& mesh, FeatureNet& net, const ReferenceSurfa
     for (const Place& place : places) {
       if (covered[place.face]) continue;
       RefinementPatch patch(mesh, stars, place.face, rings, place.deviation, lines);
-      const bool is_apart = std::all_of(batch.begin(), batch.end(),
-                                        [&](const RefinementPatch& other) { return apart(patch.box(), other.box()); });
+      const bool is_apart = std::none_of(batch.begin(), batch.end(), [&](const RefinementPatch& other) {
+        return boxes_meet(patch.box(), other.box());
+      });
       (is_apart ? taken : later).push_back(place);
       if (!is_apart) continue;
       for (const std::uint32_t f : patch.faces()) covered[f] = true;

@@ -113,12 +113,12 @@ void mend(SurfaceMesh& mesh, FeatureNet& net, const ReferenceSurface& scan, cons
 }  // namespace
 
 MendResult mend_surface(SurfaceMesh& mesh, const ReferenceSurface& scan, const MendOptions& options,
-                          const Progress& progress) {
+                        const Progress& progress) {
   return mend_surface(mesh, FeatureNet{}, scan, options, progress);
 }
 
 MendResult mend_surface(SurfaceMesh& mesh, const FeatureNet& given_net, const ReferenceSurface& scan,
-                          const MendOptions& given_options, const Progress& progress) {
+                        const MendOptions& given_options, const Progress& progress) {
   MendOptions options = given_options;
   FeatureNet net = given_net;
   const std::vector<FeatureEdge> lines = edges_of(net);

@@ -43,11 +43,11 @@ struct MendResult {
 // Precondition: closed or bordered manifold near the scan. Throws WrongUsage, Cancelled, and what preserve_volume
 // throws. A sound surface costs one check: O(n log n).
 MendResult mend_surface(SurfaceMesh& mesh, const ReferenceSurface& scan, const MendOptions& options = {},
-                          const Progress& progress = {});
+                        const Progress& progress = {});
 
 // The same with features: vertices on the net's lines stay where they are, and angles between two lines are the part's
 // own; options.constraints is not looked at.
 MendResult mend_surface(SurfaceMesh& mesh, const FeatureNet& net, const ReferenceSurface& scan,
-                          const MendOptions& options = {}, const Progress& progress = {});
+                        const MendOptions& options = {}, const Progress& progress = {});
 
 }  // namespace scan2fea

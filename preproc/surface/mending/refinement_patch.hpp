@@ -9,6 +9,7 @@
 #include "preproc/mesh/surface_mesh.hpp"
 #include "preproc/surface/features/feature_net.hpp"
 #include "preproc/surface/kernel/adjacency.hpp"
+#include "preproc/surface/mending/patch_trials.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -16,20 +17,10 @@
 
 namespace scan2fea {
 
-struct PatchGoal {
-  double limit = 0;               // largest deviation, two-sided, model units
-  double fidelity = 0;            // residual that costs as much as F(eta) = 1 (see shape_fit.hpp), model units
-  double least_angle_deg = 35;    // smaller angles are not made, nor made smaller
-  double edge = 0;                // mean edge length of the surface, model units
-  std::size_t most_vertices = 0;  // that may be inserted
-};
-
 struct PatchOutcome {
   bool improved = false;  // came nearer to the limit
   bool reached = false;   // is within it
 };
-
-BoundingBox face_box(const SurfaceMesh& mesh, const Triangle& t);
 
 class RefinementPatch {
  public:
@@ -41,8 +32,8 @@ class RefinementPatch {
 
   // Everything that `improve` reads and writes lies in here: patches whose boxes do not meet may be improved at once
   // and written one after the other.
-  const BoundingBox& box() const { return box_; }
-  const std::vector<std::uint32_t>& faces() const { return faces_; }
+  const BoundingBox& box() const { return outline_.box; }
+  const std::vector<std::uint32_t>& faces() const { return outline_.faces; }
 
   // `scan_faces`: those in the box, ascending. The patch never passes through itself or the surface around, and never
   // inverts a face against the scan. A few ms a trial and thousand scan faces; about 20 trials a step, at most 6 steps.
@@ -50,20 +41,16 @@ class RefinementPatch {
   PatchOutcome improve(const SurfaceMesh& mesh, const SurfaceMesh& scan, const std::vector<std::uint32_t>& scan_faces,
                        const FeatureNet& net, const PatchGoal& goal);
 
-  std::size_t inserted() const { return patch_.vertices.size() - vertices_.size(); }
+  std::size_t inserted() const { return patch_.vertices.size() - outline_.vertices.size(); }
 
   // Puts the patch in its place, and its new vertices on the net's lines; new vertices and faces go to the end of the
   // mesh's.
   void write(SurfaceMesh& mesh, FeatureNet& net) const;
 
  private:
-  std::vector<std::uint32_t> faces_;     // of the mesh
-  std::vector<std::uint32_t> vertices_;  // of the mesh, in the order of the patch's
-  std::vector<bool> rim_;                // per vertex: on the patch's rim
-  std::vector<LineEdge> lines_;          // by the patch's vertices
+  PatchOutline outline_;
   SurfaceMesh patch_;
-  double edge_ = 0;  // mean edge length of the patch as it was
-  BoundingBox box_;
+  std::vector<LineEdge> lines_;  // by the patch's vertices
 };
 
 }  // namespace scan2fea
