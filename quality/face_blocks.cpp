@@ -29,10 +29,13 @@ std::uint64_t spread(std::uint64_t bits) {
 
 }  // namespace
 
-BoundingBox box_of_face(const SurfaceMesh& mesh, std::uint32_t face) {
-  const Triangle& t = mesh.triangles[face];
-  const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+BoundingBox box_of_face(const std::vector<Vec3>& points, const Triangle& face) {
+  const Vec3 &a = points[face[0]], &b = points[face[1]], &c = points[face[2]];
   return {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
+}
+
+BoundingBox box_of_face(const SurfaceMesh& mesh, std::uint32_t face) {
+  return box_of_face(mesh.vertices, mesh.triangles[face]);
 }
 
 FaceBlocks::FaceBlocks(const SurfaceMesh& mesh) : order_(mesh.triangles.size()) {

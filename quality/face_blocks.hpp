@@ -14,6 +14,7 @@
 
 namespace scan2fea {
 
+BoundingBox box_of_face(const std::vector<Vec3>& points, const Triangle& face);
 BoundingBox box_of_face(const SurfaceMesh& mesh, std::uint32_t face);
 
 // Whether the boxes have a point in common; touching counts.

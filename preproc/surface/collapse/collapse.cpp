@@ -7,6 +7,7 @@
 #include "preproc/surface/kernel/indexed_heap.hpp"
 #include "preproc/surface/placement/lifting.hpp"
 #include "preproc/surface/placement/place_vertex.hpp"
+#include "quality/face_blocks.hpp"
 #include "quality/self_intersections.hpp"
 #include "quality/triangle_tree.hpp"
 
@@ -152,8 +153,10 @@ class Simplifier {
     mesh_.collapse(h);
     mesh_.points[kept] = *place;
     if (boxes_)
-      mesh_.for_each_outgoing(
-          kept, [&](Index out) { boxes_->set(HalfedgeMesh::face(out), box_of(HalfedgeMesh::face(out))); });
+      mesh_.for_each_outgoing(kept, [&](Index out) {
+        const Index f = HalfedgeMesh::face(out);
+        boxes_->set(f, box_of_face(mesh_.points, mesh_.triangle(f)));
+      });
     if (scan_) scan_triangle_[kept] = scan_triangle;
     for_each_edge_at(kept, [&](Index e) { heap_.push(e, predictor_(e)); });
     return true;
@@ -255,12 +258,6 @@ class Simplifier {
       if (fold < -0.2 && fold < before.dot(outer) / (before.norm() * outer.norm())) return false;
     }
     return true;
-  }
-
-  BoundingBox box_of(Index f) const {
-    const Triangle t = mesh_.triangle(f);
-    const Vec3 &a = mesh_.points[t[0]], &b = mesh_.points[t[1]], &c = mesh_.points[t[2]];
-    return {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
   }
 
   // Whether the faces that the contraction would leave meet no others, nor one another.
