@@ -48,30 +48,10 @@ class FeatureChains {
   std::vector<bool> is_sample_;
 };
 
-// Follows merges to the vertex that is left; makes all of them point there.
-void resolve(std::vector<std::uint32_t>& into) {
-  for (std::uint32_t i = 0; i < into.size(); ++i) {
-    std::uint32_t end = i;
-    while (into[end] != end) end = into[end];
-    into[i] = end;
-  }
-}
-
-}  // namespace
-
-ExtractedLattice contract_clusters(const SurfaceMesh& scan, const Anchors& anchors, LatticeClusters& clusters) {
-  std::vector<std::uint32_t> welded = anchors.welded;
-  if (welded.empty()) {
-    welded.resize(scan.vertices.size());
-    std::iota(welded.begin(), welded.end(), 0U);
-  }
-  HalfedgeMesh mesh(anchors.empty() ? scan : welded_scan(scan, welded));
-  const std::size_t vertices = mesh.vertex_slots();
-  FeatureChains chains(anchors, vertices);
-  std::vector<std::uint32_t> cluster(vertices);
-  for (std::uint32_t i = 0; i < welded.size(); ++i) cluster[welded[i]] = clusters.find(i);
-
-  std::vector<std::uint32_t> into(vertices);
+// Contracts edges inside of the clusters while there are any that may be. Per vertex, the one that is left of it.
+std::vector<std::uint32_t> contract_edges(HalfedgeMesh& mesh, FeatureChains& chains,
+                                          const std::vector<std::uint32_t>& cluster) {
+  std::vector<std::uint32_t> into(mesh.vertex_slots());
   std::iota(into.begin(), into.end(), 0U);
   for (bool changed = true; changed;) {
     changed = false;
@@ -85,10 +65,19 @@ ExtractedLattice contract_clusters(const SurfaceMesh& scan, const Anchors& ancho
       changed = true;
     }
   }
-  resolve(into);
+  for (std::uint32_t v = 0; v < into.size(); ++v) {
+    std::uint32_t end = v;
+    while (into[end] != end) end = into[end];
+    into[v] = end;
+  }
+  return into;
+}
 
-  // A cluster that became one vertex lies at its lattice point, parts of others where their nodes were, and what is on
-  // a feature stays on it.
+// A cluster that became one vertex lies at its lattice point, parts of others where their nodes were, and what is on a
+// feature stays on it.
+void place_vertices(HalfedgeMesh& mesh, const FeatureChains& chains, const std::vector<std::uint32_t>& cluster,
+                    const std::vector<std::uint32_t>& into, const LatticeClusters& clusters) {
+  const std::size_t vertices = mesh.vertex_slots();
   std::vector<std::uint32_t> parts(clusters.size(), 0);
   std::vector<Vec3> sums(vertices, Vec3::Zero());
   std::vector<double> counts(vertices, 0);
@@ -97,30 +86,59 @@ ExtractedLattice contract_clusters(const SurfaceMesh& scan, const Anchors& ancho
     ++counts[into[v]];
     if (into[v] == v) ++parts[cluster[v]];
   }
-  ExtractedLattice result;
-  result.contracted = true;
-  std::vector<std::uint32_t> number(vertices, no_sample);
-  std::uint32_t alive = 0;
   for (std::uint32_t v = 0; v < vertices; ++v) {
-    if (!mesh.is_alive(v)) continue;
-    number[v] = alive++;
-    if (chains.is_on_line(v)) continue;
+    if (!mesh.is_alive(v) || chains.is_on_line(v)) continue;
     mesh.points[v] = parts[cluster[v]] == 1 ? clusters.point(cluster[v]) : Vec3(sums[v] / counts[v]);
   }
+}
+
+// Per vertex its number among those that are left.
+std::vector<std::uint32_t> number_vertices(const HalfedgeMesh& mesh) {
+  std::vector<std::uint32_t> number(mesh.vertex_slots(), no_sample);
+  std::uint32_t alive = 0;
+  for (std::uint32_t v = 0; v < number.size(); ++v)
+    if (mesh.is_alive(v)) number[v] = alive++;
+  return number;
+}
+
+// The anchors' net with the vertices that are left on its lines. `scan` has the faces of `mesh` as they were.
+FeatureNet net_of_contracted(const Anchors& anchors, const SurfaceMesh& scan, const HalfedgeMesh& mesh,
+                             const std::vector<std::uint32_t>& into, const std::vector<std::uint32_t>& number) {
+  FeatureNet net = anchors.net;
+  for (std::size_t l = 0; l < net.lines.size(); ++l) {
+    net.lines[l].vertices.clear();
+    for (std::size_t i = 0; i < anchors.vertices_of_line[l].size(); ++i) {
+      const std::uint32_t v = anchors.vertices_of_line[l][i];
+      if (into[v] == v) net.lines[l].vertices.push_back({number[v], static_cast<double>(i)});
+    }
+  }
+  for (std::uint32_t f = 0; f < mesh.face_slots(); ++f)
+    if (mesh.is_face_alive(f)) net.patch_of_face.push_back(anchors.patch_of_node[scan.triangles[f][0]]);
+  return net;
+}
+
+}  // namespace
+
+ExtractedLattice contract_clusters(const SurfaceMesh& scan, const Anchors& anchors, LatticeClusters& clusters) {
+  std::vector<std::uint32_t> welded = anchors.welded;
+  if (welded.empty()) {
+    welded.resize(scan.vertices.size());
+    std::iota(welded.begin(), welded.end(), 0U);
+  }
+  HalfedgeMesh mesh(anchors.empty() ? scan : welded_scan(scan, welded));
+  FeatureChains chains(anchors, mesh.vertex_slots());
+  std::vector<std::uint32_t> cluster(mesh.vertex_slots());
+  for (std::uint32_t i = 0; i < welded.size(); ++i) cluster[welded[i]] = clusters.find(i);
+
+  const std::vector<std::uint32_t> into = contract_edges(mesh, chains, cluster);
+  place_vertices(mesh, chains, cluster, into, clusters);
+
+  const std::vector<std::uint32_t> number = number_vertices(mesh);
+  ExtractedLattice result;
+  result.contracted = true;
   result.vertex_of_node.resize(welded.size());
   for (std::size_t i = 0; i < welded.size(); ++i) result.vertex_of_node[i] = number[into[welded[i]]];
-  if (!anchors.empty()) {
-    result.net = anchors.net;
-    for (std::size_t l = 0; l < result.net.lines.size(); ++l) {
-      result.net.lines[l].vertices.clear();
-      for (std::size_t i = 0; i < anchors.vertices_of_line[l].size(); ++i) {
-        const std::uint32_t v = anchors.vertices_of_line[l][i];
-        if (into[v] == v) result.net.lines[l].vertices.push_back({number[v], static_cast<double>(i)});
-      }
-    }
-    for (std::uint32_t f = 0; f < mesh.face_slots(); ++f)
-      if (mesh.is_face_alive(f)) result.net.patch_of_face.push_back(anchors.patch_of_node[scan.triangles[f][0]]);
-  }
+  if (!anchors.empty()) result.net = net_of_contracted(anchors, scan, mesh, into, number);
   result.mesh = mesh.to_surface();
   return result;
 }

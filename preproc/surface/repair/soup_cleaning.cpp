@@ -63,6 +63,106 @@ std::vector<std::vector<std::uint32_t>> find_duplicates(const SurfaceMesh& mesh)
   return groups;
 }
 
+// Faces that hang together across edges of two faces, in sheets; all other edges bound the sheets.
+class Sheets {
+ public:
+  struct Sheet {
+    std::uint32_t first_face;
+    double area = 0;
+    std::vector<std::uint32_t> edges;  // that bound it, without repetition
+  };
+
+  explicit Sheets(const SurfaceMesh& mesh) : joined_(mesh.triangles.size()), sheet_of_face_(mesh.triangles.size(), 0) {
+    EdgeGroups(mesh).for_each([&](const std::uint32_t* first, const std::uint32_t* last) {
+      if (last - first == 2) return joined_.unite(first[0] / 3, first[1] / 3);
+      any_odd_ |= last - first > 2 && (last - first) % 2 == 1;
+      const auto at = static_cast<std::uint32_t>(around_.size());
+      around_.insert(around_.end(), first, last);
+      edges_.push_back({at, static_cast<std::uint32_t>(around_.size())});
+    });
+    // Nearly all scans end here: a wall leaves an odd number of faces at its edges.
+    if (any_odd_) gather(mesh);
+  }
+
+  // Whether any edge has an odd number of faces, three or more; if not, no sheets are told.
+  bool any_odd() const { return any_odd_; }
+
+  // Those with edges, the smallest area first.
+  std::vector<Sheet> by_area() const {
+    std::vector<Sheet> sorted;
+    for (const Sheet& sheet : sheets_)
+      if (!sheet.edges.empty()) sorted.push_back(sheet);
+    std::stable_sort(sorted.begin(), sorted.end(), [](const Sheet& a, const Sheet& b) { return a.area < b.area; });
+    return sorted;
+  }
+
+  // Whether each edge of the sheet would have an even number of faces or none without it, and some has an odd one now.
+  bool is_wall(const Sheet& sheet) const {
+    bool mends = false;
+    for (const std::uint32_t e : sheet.edges) {
+      const std::uint32_t left = remaining_[e] - own(sheet, e);
+      if (left % 2 == 1) return false;
+      mends |= left > 0 && remaining_[e] % 2 == 1;
+    }
+    return mends;
+  }
+
+  void drop(const Sheet& sheet) {
+    for (const std::uint32_t e : sheet.edges) remaining_[e] -= own(sheet, e);
+    dropped_[sheet_of_face_[sheet.first_face]] = 1;
+  }
+
+  // Per face, whether its sheet was dropped.
+  std::vector<char> dropped_faces() const {
+    std::vector<char> marks(sheet_of_face_.size());
+    for (std::size_t f = 0; f < marks.size(); ++f) marks[f] = dropped_[sheet_of_face_[f]];
+    return marks;
+  }
+
+ private:
+  // A range of half-edges in around_.
+  struct Edge {
+    std::uint32_t first, last;
+  };
+
+  void gather(const SurfaceMesh& mesh) {
+    for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+      const std::uint32_t first = joined_.find(f);
+      if (first == f) {
+        sheet_of_face_[f] = static_cast<std::uint32_t>(sheets_.size());
+        sheets_.push_back({f, 0, {}});
+      }
+      sheet_of_face_[f] = sheet_of_face_[first];
+      sheets_[sheet_of_face_[f]].area += area_of(mesh, f);
+    }
+    dropped_.assign(sheets_.size(), 0);
+    remaining_.resize(edges_.size());
+    for (std::uint32_t e = 0; e < edges_.size(); ++e) {
+      remaining_[e] = edges_[e].last - edges_[e].first;
+      for (std::uint32_t i = edges_[e].first; i < edges_[e].last; ++i) {
+        std::vector<std::uint32_t>& edges = sheets_[sheet_of_face_[around_[i] / 3]].edges;
+        if (edges.empty() || edges.back() != e) edges.push_back(e);
+      }
+    }
+  }
+
+  // The number of the sheet's own faces at an edge.
+  std::uint32_t own(const Sheet& sheet, std::uint32_t e) const {
+    const std::uint32_t number = sheet_of_face_[sheet.first_face];
+    return static_cast<std::uint32_t>(std::count_if(around_.begin() + edges_[e].first, around_.begin() + edges_[e].last,
+                                                    [&](std::uint32_t h) { return sheet_of_face_[h / 3] == number; }));
+  }
+
+  DisjointSets joined_;
+  std::vector<Edge> edges_;
+  std::vector<std::uint32_t> around_;
+  bool any_odd_ = false;
+  std::vector<std::uint32_t> sheet_of_face_;
+  std::vector<Sheet> sheets_;
+  std::vector<std::uint32_t> remaining_;  // per edge, its faces that were not dropped
+  std::vector<char> dropped_;             // per sheet
+};
+
 }  // namespace
 
 void check_input(const SurfaceMesh& mesh) {
@@ -190,72 +290,14 @@ void weld_borders(SurfaceMesh& mesh, RepairResult& result) {
 }
 
 void drop_inner_walls(SurfaceMesh& mesh, RepairResult& result) {
-  // Edges as ranges of half-edges; patches are joined across edges of two faces.
-  struct Edge {
-    std::uint32_t first, last;
-  };
-  std::vector<Edge> irregular;  // edges of one face, or of more than two
-  std::vector<std::uint32_t> around;
-  DisjointSets patches(mesh.triangles.size());
-  bool any_odd = false;
-  EdgeGroups(mesh).for_each([&](const std::uint32_t* first, const std::uint32_t* last) {
-    if (last - first == 2) return patches.unite(first[0] / 3, first[1] / 3);
-    any_odd |= last - first > 2 && (last - first) % 2 == 1;
-    const auto at = static_cast<std::uint32_t>(around.size());
-    around.insert(around.end(), first, last);
-    irregular.push_back({at, static_cast<std::uint32_t>(around.size())});
-  });
-  if (!any_odd) return;
-
-  struct Patch {
-    std::uint32_t id;
-    double area = 0;
-    std::vector<std::uint32_t> edges;  // into `irregular`, without repetition
-  };
-  std::vector<std::uint32_t> number(mesh.triangles.size(), 0);
-  std::vector<Patch> sheets;
-  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
-    if (patches.find(f) == f) number[f] = static_cast<std::uint32_t>(sheets.size()), sheets.push_back({f, 0, {}});
-    number[f] = number[patches.find(f)];
-    sheets[number[f]].area += area_of(mesh, f);
+  Sheets sheets(mesh);
+  if (!sheets.any_odd()) return;
+  for (const Sheets::Sheet& sheet : sheets.by_area()) {
+    if (!sheets.is_wall(sheet)) continue;
+    sheets.drop(sheet);
+    result.changes.push_back({RepairKind::InnerWall, centre_of(mesh, sheet.first_face), sheet.area});
   }
-  std::vector<std::uint32_t> remaining(irregular.size());
-  for (std::uint32_t e = 0; e < irregular.size(); ++e) {
-    remaining[e] = irregular[e].last - irregular[e].first;
-    for (std::uint32_t i = irregular[e].first; i < irregular[e].last; ++i) {
-      auto& edges = sheets[number[around[i] / 3]].edges;
-      if (edges.empty() || edges.back() != e) edges.push_back(e);
-    }
-  }
-  const auto own = [&](const Patch& sheet, std::uint32_t e) {
-    return static_cast<std::uint32_t>(std::count_if(around.begin() + irregular[e].first,
-                                                    around.begin() + irregular[e].last,
-                                                    [&](std::uint32_t h) { return patches.find(h / 3) == sheet.id; }));
-  };
-  const auto is_wall = [&](const Patch& sheet) {
-    bool mends = false;
-    for (const std::uint32_t e : sheet.edges) {
-      const std::uint32_t left = remaining[e] - own(sheet, e);
-      if (left % 2 == 1) return false;
-      mends |= left > 0 && remaining[e] % 2 == 1;
-    }
-    return mends;
-  };
-
-  std::vector<const Patch*> by_area;
-  for (const Patch& sheet : sheets)
-    if (!sheet.edges.empty()) by_area.push_back(&sheet);
-  std::stable_sort(by_area.begin(), by_area.end(), [](const Patch* a, const Patch* b) { return a->area < b->area; });
-  std::vector<char> dropped(sheets.size(), 0);
-  for (const Patch* sheet : by_area) {
-    if (!is_wall(*sheet)) continue;
-    for (const std::uint32_t e : sheet->edges) remaining[e] -= own(*sheet, e);
-    dropped[number[sheet->id]] = 1;
-    result.changes.push_back({RepairKind::InnerWall, centre_of(mesh, sheet->id), sheet->area});
-  }
-  std::vector<char> marks(mesh.triangles.size(), 0);
-  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) marks[f] = dropped[number[f]];
-  remove_faces(mesh, marks, result);
+  remove_faces(mesh, sheets.dropped_faces(), result);
 }
 
 std::vector<Vec3> drop_unused_vertices(SurfaceMesh& mesh) {
