@@ -1,6 +1,7 @@
 #include "preproc/surface/collapse/collapse.hpp"
 
 #include "preproc/mesh/error.hpp"
+#include "preproc/mesh/names.hpp"
 #include "preproc/surface/collapse/collapse_cost.hpp"
 #include "preproc/surface/kernel/face_boxes.hpp"
 #include "preproc/surface/kernel/halfedge_mesh.hpp"
@@ -12,7 +13,6 @@
 #include "quality/triangle_tree.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -24,7 +24,7 @@ namespace {
 
 using Index = HalfedgeMesh::Index;
 
-constexpr std::array<std::pair<CollapseCost, std::string_view>, 4> cost_names{{
+constexpr NameTable<CollapseCost, 4> cost_names{{
     {CollapseCost::bending_energy, "bending-energy"},
     {CollapseCost::quadric_error, "quadric-error"},
     {CollapseCost::edge_length, "edge-length"},
@@ -309,15 +309,11 @@ class Simplifier {
 }  // namespace
 
 std::string_view name_of(CollapseCost cost) {
-  for (const auto& [value, name] : cost_names)
-    if (value == cost) return name;
-  return {};
+  return name_in(cost_names, cost);
 }
 
 std::optional<CollapseCost> collapse_cost_named(std::string_view name) {
-  for (const auto& [value, known] : cost_names)
-    if (known == name) return value;
-  return std::nullopt;
+  return value_in(cost_names, name);
 }
 
 CollapseResult collapse(SurfaceMesh& mesh, const CollapseOptions& options, const Progress& progress) {

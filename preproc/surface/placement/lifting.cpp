@@ -1,11 +1,11 @@
 #include "preproc/surface/placement/lifting.hpp"
 
+#include "preproc/mesh/names.hpp"
+
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 
-#include <array>
 #include <cmath>
-#include <utility>
 #include <vector>
 
 namespace scan2fea {
@@ -14,7 +14,7 @@ namespace {
 // Cosine of 75 degrees.
 constexpr double smallest_normal_cosine = 0.26;
 
-constexpr std::array<std::pair<Lifting, std::string_view>, 4> names{{
+constexpr NameTable<Lifting, 4> names{{
     {Lifting::shepard, "shepard"},
     {Lifting::modified_quadratic_shepard, "modified-quadratic-shepard"},
     {Lifting::moving_least_squares, "moving-least-squares"},
@@ -136,9 +136,7 @@ double modified_quadratic_shepard(const std::vector<Height>& heights) {
 }  // namespace
 
 std::string_view name_of(Lifting lifting) {
-  for (const auto& [value, name] : names)
-    if (value == lifting) return name;
-  return {};
+  return name_in(names, lifting);
 }
 
 double wendland(double r) {

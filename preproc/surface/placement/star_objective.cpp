@@ -1,20 +1,19 @@
 #include "preproc/surface/placement/star_objective.hpp"
 
+#include "preproc/mesh/names.hpp"
 #include "quality/triangle_measures.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <utility>
 
 namespace scan2fea {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-constexpr std::array<std::pair<StarObjective, std::string_view>, 5> names{{
+constexpr NameTable<StarObjective, 5> names{{
     {StarObjective::shannon, "shannon"},
     {StarObjective::a_entropy, "a-entropy"},
     {StarObjective::regularised_a_entropy, "regularised-a-entropy"},
@@ -42,15 +41,11 @@ double gap_entropy(std::vector<double>& ratios, double padding) {
 }  // namespace
 
 std::string_view name_of(StarObjective objective) {
-  for (const auto& [value, name] : names)
-    if (value == objective) return name;
-  return {};
+  return name_in(names, objective);
 }
 
 std::optional<StarObjective> star_objective_named(std::string_view name) {
-  for (const auto& [value, known] : names)
-    if (known == name) return value;
-  return std::nullopt;
+  return value_in(names, name);
 }
 
 double shannon_entropy(std::span<const double> ratios) {

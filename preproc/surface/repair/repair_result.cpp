@@ -1,46 +1,36 @@
 #include "preproc/surface/repair/repair_result.hpp"
 
+#include "preproc/mesh/names.hpp"
+
 #include <algorithm>
 #include <numeric>
 
 namespace scan2fea {
+namespace {
+
+constexpr NameTable<RepairKind, 16> names{{
+    {RepairKind::WeldedVertex, "welded vertex"},
+    {RepairKind::UnusedVertex, "unused vertex"},
+    {RepairKind::DegenerateFace, "degenerate face"},
+    {RepairKind::DuplicateFace, "duplicate face"},
+    {RepairKind::InnerWall, "inner wall"},
+    {RepairKind::SplitVertex, "split vertex"},
+    {RepairKind::NonManifoldFaces, "non-manifold face"},
+    {RepairKind::TurnedFaces, "turned faces"},
+    {RepairKind::DroppedSpeck, "dropped speck"},
+    {RepairKind::DroppedFragment, "dropped fragment"},
+    {RepairKind::DroppedInside, "dropped inner piece"},
+    {RepairKind::ClosedHole, "closed hole"},
+    {RepairKind::PartedTouch, "parted touch"},
+    {RepairKind::UnitedShell, "united shell"},
+    {RepairKind::SmoothedFold, "smoothed fold"},
+    {RepairKind::Intersection, "removed intersection"},
+}};
+
+}  // namespace
 
 std::string_view name(RepairKind kind) {
-  switch (kind) {
-    case RepairKind::WeldedVertex:
-      return "welded vertex";
-    case RepairKind::UnusedVertex:
-      return "unused vertex";
-    case RepairKind::DegenerateFace:
-      return "degenerate face";
-    case RepairKind::DuplicateFace:
-      return "duplicate face";
-    case RepairKind::InnerWall:
-      return "inner wall";
-    case RepairKind::SplitVertex:
-      return "split vertex";
-    case RepairKind::NonManifoldFaces:
-      return "non-manifold face";
-    case RepairKind::TurnedFaces:
-      return "turned faces";
-    case RepairKind::DroppedSpeck:
-      return "dropped speck";
-    case RepairKind::DroppedFragment:
-      return "dropped fragment";
-    case RepairKind::DroppedInside:
-      return "dropped inner piece";
-    case RepairKind::ClosedHole:
-      return "closed hole";
-    case RepairKind::PartedTouch:
-      return "parted touch";
-    case RepairKind::UnitedShell:
-      return "united shell";
-    case RepairKind::SmoothedFold:
-      return "smoothed fold";
-    case RepairKind::Intersection:
-      return "removed intersection";
-  }
-  return {};
+  return name_in(names, kind);
 }
 
 std::size_t RepairResult::count(RepairKind kind) const {
