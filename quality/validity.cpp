@@ -1,29 +1,13 @@
 #include "quality/validity.hpp"
 
+#include "preproc/mesh/union_find.hpp"
+
 #include <algorithm>
 #include <numeric>
 #include <vector>
 
 namespace scan2fea {
 namespace {
-
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
-
-  std::uint32_t root(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::uint32_t i, std::uint32_t j) {
-    i = root(i);
-    j = root(j);
-    if (i != j) parent_[std::max(i, j)] = std::min(i, j);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 // A face's side from its corner k to corner k + 1, seen from the edge's vertex of smaller index.
 struct Side {
@@ -79,8 +63,8 @@ SidesByVertex sort_sides(const SurfaceMesh& mesh) {
 
 SurfaceValidity check_validity(const SurfaceMesh& mesh) {
   SurfaceValidity validity;
-  DisjointSets faces(mesh.triangles.size());
-  DisjointSets corners(3 * mesh.triangles.size());  // joined where two faces share an edge at the corner
+  UnionFind faces(mesh.triangles.size());
+  UnionFind corners(3 * mesh.triangles.size());  // joined where two faces share an edge at the corner
   const auto [first, sides] = sort_sides(mesh);
 
   long edges = 0;
@@ -91,9 +75,9 @@ SurfaceValidity check_validity(const SurfaceMesh& mesh) {
       for (; i < first[v + 1] && sides[i].larger_vertex == side.larger_vertex; ++i) {
         ++faces_here;
         upwards += sides[i].runs_upwards();
-        faces.join(side.from_corner / 3, sides[i].from_corner / 3);
-        corners.join(side.smaller_corner, sides[i].smaller_corner);
-        corners.join(side.larger_corner, sides[i].larger_corner);
+        faces.unite(side.from_corner / 3, sides[i].from_corner / 3);
+        corners.unite(side.smaller_corner, sides[i].smaller_corner);
+        corners.unite(side.larger_corner, sides[i].larger_corner);
       }
       ++edges;
       validity.boundary_edges += faces_here == 1;
@@ -111,8 +95,8 @@ SurfaceValidity check_validity(const SurfaceMesh& mesh) {
       continue;
     }
     ++face_count;
-    validity.components += faces.root(f) == f;
-    for (std::uint32_t k = 0; k < 3; ++k) fans[t[k]] += corners.root(3 * f + k) == 3 * f + k;
+    validity.components += faces.find(f) == f;
+    for (std::uint32_t k = 0; k < 3; ++k) fans[t[k]] += corners.find(3 * f + k) == 3 * f + k;
   }
   for (const std::uint32_t count : fans) {
     validity.unused_vertices += count == 0;

@@ -3,7 +3,7 @@
 #include "preproc/surface/kernel/adjacency.hpp"
 #include "preproc/surface/kernel/components.hpp"
 #include "preproc/surface/kernel/cut_surface.hpp"
-#include "preproc/surface/kernel/union_find.hpp"
+#include "preproc/mesh/union_find.hpp"
 #include "quality/triangle_measures.hpp"
 
 #include <algorithm>

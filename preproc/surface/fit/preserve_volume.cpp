@@ -2,6 +2,7 @@
 
 #include "preproc/mesh/error.hpp"
 #include "preproc/surface/kernel/adjacency.hpp"
+#include "preproc/surface/kernel/components.hpp"
 #include "preproc/surface/kernel/nearest.hpp"
 #include "quality/self_intersections.hpp"
 #include "quality/validity.hpp"
@@ -18,35 +19,25 @@ namespace {
 // Of a volume, that may be missing in the end: far above rounding, far below any other error.
 constexpr double largest_rest = 1e-9;
 
-using Components = std::vector<std::vector<std::uint32_t>>;  // triangle indices, by component
+// The parts of a surface that hang together, without the vertices that have no triangle.
+struct Parts {
+  std::vector<std::uint32_t> of_vertex;           // no_face without a triangle
+  std::vector<std::vector<std::uint32_t>> faces;  // of each part, ascending
 
-// Component of every vertex by union-find, numbered in the order of first appearance among the triangles.
-std::vector<std::uint32_t> label_vertices(const SurfaceMesh& mesh, std::size_t& count) {
-  std::vector<std::uint32_t> parent(mesh.vertices.size());
-  std::iota(parent.begin(), parent.end(), 0U);
-  const auto root = [&](std::uint32_t v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
-  for (const Triangle& t : mesh.triangles) {
-    parent[root(t[1])] = root(t[0]);
-    parent[root(t[2])] = root(t[0]);
+  explicit Parts(const SurfaceMesh& mesh) : of_vertex(mesh.vertices.size(), no_face) {
+    const Components components = find_components(mesh);
+    std::vector<std::uint32_t> number(components.count, no_face);
+    for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+      std::uint32_t& part = number[components.of_vertex[mesh.triangles[f][0]]];
+      if (part == no_face) {
+        part = static_cast<std::uint32_t>(faces.size());
+        faces.emplace_back();
+      }
+      faces[part].push_back(f);
+    }
+    for (std::size_t v = 0; v < of_vertex.size(); ++v) of_vertex[v] = number[components.of_vertex[v]];
   }
-  std::vector<std::uint32_t> label(mesh.vertices.size(), no_face);
-  count = 0;
-  for (const Triangle& t : mesh.triangles) {
-    std::uint32_t& of_root = label[root(t[0])];
-    if (of_root == no_face) of_root = static_cast<std::uint32_t>(count++);
-  }
-  for (std::uint32_t v = 0; v < label.size(); ++v) label[v] = label[root(v)];
-  return label;
-}
-
-Components components_of(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& label, std::size_t count) {
-  Components components(count);
-  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) components[label[mesh.triangles[f][0]]].push_back(f);
-  return components;
-}
+};
 
 // About `centre`, so that far-off coordinates cost no digits.
 double volume_of(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& faces, const Vec3& centre) {
@@ -59,20 +50,20 @@ double volume_of(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& face
   return six_volumes / 6;
 }
 
-// Per component of `mesh` the component of `like` that most of its vertices lie nearest to; empty where two share one.
-std::vector<std::uint32_t> pair_components(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& label,
-                                           std::size_t count, const SurfaceMesh& like,
-                                           const std::vector<std::uint32_t>& like_label, std::size_t like_count) {
-  if (count != like_count) return {};
+// Per part of `mesh` the part of `like` that most of its vertices lie nearest to; empty where two share one.
+std::vector<std::uint32_t> pair_parts(const SurfaceMesh& mesh, const Parts& parts, const SurfaceMesh& like,
+                                      const Parts& like_parts) {
+  const std::size_t count = parts.faces.size();
+  if (count != like_parts.faces.size()) return {};
   if (count == 1) return {0};
   const double spacing = std::sqrt(surface_area(like) / static_cast<double>(like.triangles.size()));
   const std::vector<std::uint32_t> nearest = nearest_vertices(mesh.vertices, vertex_normals(mesh), like, spacing);
-  std::vector<std::vector<std::uint32_t>> votes(count, std::vector<std::uint32_t>(like_count, 0));
-  for (std::uint32_t v = 0; v < label.size(); ++v) {
-    if (label[v] != no_face) ++votes[label[v]][like_label[nearest[v]]];
+  std::vector<std::vector<std::uint32_t>> votes(count, std::vector<std::uint32_t>(count, 0));
+  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
+    if (parts.of_vertex[v] != no_face) ++votes[parts.of_vertex[v]][like_parts.of_vertex[nearest[v]]];
   }
   std::vector<std::uint32_t> pair(count);
-  std::vector<bool> taken(like_count, false);
+  std::vector<bool> taken(count, false);
   for (std::size_t c = 0; c < count; ++c) {
     pair[c] = static_cast<std::uint32_t>(std::max_element(votes[c].begin(), votes[c].end()) - votes[c].begin());
     if (taken[pair[c]]) return {};
@@ -143,18 +134,13 @@ VolumeShift preserve_volume(SurfaceMesh& mesh, const SurfaceMesh& like, const Ve
                        .limit = "closed and oriented",
                        .advice = "repair the scan, or leave its holes open and the volume unkept"});
   }
-  std::size_t count = 0;
-  std::size_t like_count = 0;
-  const std::vector<std::uint32_t> label = label_vertices(mesh, count);
-  const std::vector<std::uint32_t> like_label = label_vertices(like, like_count);
-  Components components = components_of(mesh, label, count);
-  Components like_components = components_of(like, like_label, like_count);
-  std::vector<std::uint32_t> pair = pair_components(mesh, label, count, like, like_label, like_count);
+  Parts parts(mesh), like_parts(like);
+  std::vector<std::uint32_t> pair = pair_parts(mesh, parts, like, like_parts);
   if (pair.empty()) {
-    components.assign(1, std::vector<std::uint32_t>(mesh.triangles.size()));
-    like_components.assign(1, std::vector<std::uint32_t>(like.triangles.size()));
-    std::iota(components[0].begin(), components[0].end(), 0U);
-    std::iota(like_components[0].begin(), like_components[0].end(), 0U);
+    parts.faces.assign(1, std::vector<std::uint32_t>(mesh.triangles.size()));
+    like_parts.faces.assign(1, std::vector<std::uint32_t>(like.triangles.size()));
+    std::iota(parts.faces[0].begin(), parts.faces[0].end(), 0U);
+    std::iota(like_parts.faces[0].begin(), like_parts.faces[0].end(), 0U);
     pair = {0};
   }
   const BoundingBox box = bounding_box(like.vertices);
@@ -164,10 +150,10 @@ VolumeShift preserve_volume(SurfaceMesh& mesh, const SurfaceMesh& like, const Ve
     if (constraints[v] == VertexConstraint::fixed) directions[v].setZero();
   }
 
-  VolumeShift result{0, components.size()};
-  for (std::size_t c = 0; c < components.size(); ++c) {
-    const double volume = volume_of(like, like_components[pair[c]], centre);
-    const double shift = shift_to_volume(mesh, components[c], volume, centre, directions);
+  VolumeShift result{0, parts.faces.size()};
+  for (std::size_t c = 0; c < parts.faces.size(); ++c) {
+    const double volume = volume_of(like, like_parts.faces[pair[c]], centre);
+    const double shift = shift_to_volume(mesh, parts.faces[c], volume, centre, directions);
     result.largest_displacement = std::max(result.largest_displacement, std::abs(shift));
   }
   return result;

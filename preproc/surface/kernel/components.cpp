@@ -1,6 +1,6 @@
 #include "preproc/surface/kernel/components.hpp"
 
-#include "preproc/surface/kernel/union_find.hpp"
+#include "preproc/mesh/union_find.hpp"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #include "preproc/surface/kernel/cut_surface.hpp"
 
-#include "preproc/surface/kernel/union_find.hpp"
+#include "preproc/mesh/union_find.hpp"
 
 #include <algorithm>
 #include <limits>

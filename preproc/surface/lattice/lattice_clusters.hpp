@@ -2,7 +2,7 @@
 #pragma once
 
 #include "preproc/surface/features/feature_net.hpp"
-#include "preproc/surface/kernel/union_find.hpp"
+#include "preproc/mesh/union_find.hpp"
 #include "preproc/surface/lattice/position_field.hpp"
 
 #include <cstdint>

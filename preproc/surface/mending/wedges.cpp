@@ -3,7 +3,7 @@
 #include "preproc/surface/fit/preserve_volume.hpp"
 #include "preproc/surface/kernel/nearest.hpp"
 #include "preproc/surface/kernel/rings.hpp"
-#include "preproc/surface/kernel/union_find.hpp"
+#include "preproc/mesh/union_find.hpp"
 #include "preproc/surface/mending/defects.hpp"
 #include "preproc/surface/mending/local_moves.hpp"
 #include "preproc/surface/placement/shape_energy.hpp"

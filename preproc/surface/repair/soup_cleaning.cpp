@@ -1,32 +1,16 @@
 #include "preproc/surface/repair/soup_cleaning.hpp"
 
 #include "preproc/mesh/error.hpp"
+#include "preproc/mesh/union_find.hpp"
 #include "preproc/surface/repair/face_marks.hpp"
 #include "preproc/surface/repair/soup_adjacency.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace scan2fea {
 namespace {
-
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0U); }
-  std::uint32_t find(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void unite(std::uint32_t a, std::uint32_t b) {  // the lowest index represents, whatever the order of calls
-    a = find(a), b = find(b);
-    if (a != b) parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 struct SortedFace {
   Triangle vertices;
@@ -153,7 +137,7 @@ class Sheets {
                                                     [&](std::uint32_t h) { return sheet_of_face_[h / 3] == number; }));
   }
 
-  DisjointSets joined_;
+  UnionFind joined_;
   std::vector<Edge> edges_;
   std::vector<std::uint32_t> around_;
   bool any_odd_ = false;
@@ -218,7 +202,7 @@ void drop_duplicate_faces(SurfaceMesh& mesh, RepairResult& result) {
   }
 
   // Patches of doubled faces vote by the edges that they share with single ones.
-  DisjointSets patches(mesh.triangles.size());
+  UnionFind patches(mesh.triangles.size());
   const EdgeGroups edges(mesh);
   edges.for_each([&](const std::uint32_t* first, const std::uint32_t* last) {
     const std::uint32_t* previous = nullptr;
@@ -273,7 +257,7 @@ void weld_borders(SurfaceMesh& mesh, RepairResult& result) {
     if (key(a) != key(b)) return std::pair(key(a)) < std::pair(key(b));
     return std::pair(a.from, a.to) < std::pair(b.from, b.to);
   });
-  DisjointSets joined(mesh.vertices.size());
+  UnionFind joined(mesh.vertices.size());
   for (std::size_t i = 0; i < border.size(); ++i) {
     const BorderEdge& e = border[i];
     if (place[e.from] == place[e.to]) joined.unite(e.from, e.to);  // an edge of no length
