@@ -6,7 +6,6 @@
 #include <mutex>
 #include <numeric>
 #include <stdexcept>
-#include <stdlib.h>  // mkdtemp
 #include <string>
 
 namespace scan2fea {
@@ -58,28 +57,6 @@ std::string current_exception_text() {
     return "unknown error of Gmsh";
   }
 }
-
-// A folder of our own that holds a link `mesh.msh` to the file: Gmsh tells the format by the extension, in lower case.
-class PrivateLink {
- public:
-  explicit PrivateLink(const std::filesystem::path& file) {
-    std::string pattern = (std::filesystem::temp_directory_path() / "scan2fea-XXXXXX").string();
-    if (!mkdtemp(pattern.data())) throw std::runtime_error("cannot make a temporary folder " + pattern);
-    folder_ = pattern;
-    std::filesystem::create_symlink(std::filesystem::absolute(file), path());
-  }
-  ~PrivateLink() {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-  }
-  PrivateLink(const PrivateLink&) = delete;
-  PrivateLink& operator=(const PrivateLink&) = delete;
-
-  std::filesystem::path path() const { return folder_ / "mesh.msh"; }
-
- private:
-  std::filesystem::path folder_;
-};
 
 std::vector<std::size_t> tags(std::size_t count) {
   std::vector<std::size_t> result(count);
@@ -168,13 +145,12 @@ extern "C" WriteByGmsh scan2fea_write_by_gmsh;
 void scan2fea_write_by_gmsh(const TetMesh& mesh, const std::filesystem::path& file, MshVersion version,
                             std::string& failure) {
   try {
-    const PrivateLink link(file);
     const GmshSession session;
     build_model(mesh, version);
     gmsh::option::setNumber("Mesh.MshFileVersion", version == MshVersion::v2_2 ? 2.2 : 4.1);
     gmsh::option::setNumber("Mesh.Binary", 0);
     gmsh::option::setNumber("Mesh.SaveAll", 0);
-    gmsh::write(link.path().string());
+    gmsh::write(file.string());
     failure.clear();
   } catch (...) {
     failure = current_exception_text();

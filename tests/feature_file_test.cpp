@@ -35,8 +35,8 @@ TEST(FeatureFile, EdgesOfAScanComeBackAsThemselves) {
 
 TEST(FeatureFile, PolylinesAndRelativeIndicesAreRead) {
   const TemporaryFolder folder;
-  const auto file =
-      folder.file("drawn.obj", "# drawn\no rim\nv 0 0 0\nv 1 0 0\nv 1 1 0\nl 1 2/1 3\nl -1 -3\nv 9 9 9\nf 1 2 3\n");
+  const auto file = write_text(folder / "drawn.obj",
+                               "# drawn\no rim\nv 0 0 0\nv 1 0 0\nv 1 1 0\nl 1 2/1 3\nl -1 -3\nv 9 9 9\nf 1 2 3\n");
   const FeatureLines lines = read_feature_lines(file);
   EXPECT_EQ(lines.points.size(), 4U);
   using Segments = decltype(lines.segments);
@@ -54,7 +54,7 @@ TEST(FeatureFile, NoLinesAreNoFeatures) {
 TEST(FeatureFile, BrokenLinesAreNamed) {
   const TemporaryFolder folder;
   const auto read = [&](const char* text) {
-    return message_of([&] { read_feature_lines(folder.file("bad.obj", text)); });
+    return message_of([&] { read_feature_lines(write_text(folder / "bad.obj", text)); });
   };
   EXPECT_THAT(read("v 0 0 0\nv 1 0 0\nl 1 3\n"), HasSubstr("bad.obj:3"));
   EXPECT_THAT(read("v 0 0 0\nv 1 0 0\nl 1\n"), HasSubstr("too few points"));

@@ -33,7 +33,7 @@ TEST(OutputFile, AppearsWhenCommitted) {
 
 TEST(OutputFile, LeavesNothingBehindAFailure) {
   const TemporaryFolder folder;
-  folder.file("part.inp", "what stood there before");
+  write_text(folder / "part.inp", "what stood there before");
   EXPECT_THROW(
       {
         OutputFile output(folder / "part.inp");
@@ -47,7 +47,7 @@ TEST(OutputFile, LeavesNothingBehindAFailure) {
 
 TEST(OutputFile, ReplacesTheFileThatStoodThere) {
   const TemporaryFolder folder;
-  OutputFile output(folder.file("part.inp", "a longer text than the new one"));
+  OutputFile output(write_text(folder / "part.inp", "a longer text than the new one"));
   output.stream() << "new";
   output.commit();
   EXPECT_EQ(contents(folder / "part.inp"), "new");
@@ -84,13 +84,13 @@ TEST(OutputFile, HasThePermissionsOfAnyNewFile) {
   const TemporaryFolder folder;
   OutputFile output(folder / "part.inp");
   output.commit();
-  const auto any = std::filesystem::status(folder.file("any", "")).permissions();
+  const auto any = std::filesystem::status(write_text(folder / "any", "")).permissions();
   EXPECT_EQ(std::filesystem::status(folder / "part.inp").permissions(), any);
 }
 
 TEST(OutputFile, WritesThroughALink) {
   const TemporaryFolder folder;
-  folder.file("real.inp", "old");
+  write_text(folder / "real.inp", "old");
   std::filesystem::create_symlink(folder / "real.inp", folder / "link.inp");
   OutputFile output(folder / "link.inp");
   output.stream() << "new";
@@ -119,7 +119,7 @@ TEST(OutputFile, RefusesDirectoriesAndDevices) {
 
 TEST(OutputFile, TellsThatTheDiskIsFull) {
   const TemporaryFolder folder;
-  folder.file("part.inp", "old");
+  write_text(folder / "part.inp", "old");
   // A limit on the size of files fails a write as a full disk does.
   struct rlimit before {};
   ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);

@@ -37,7 +37,7 @@ class ReadDamaged : public testing::TestWithParam<const char*> {
 
   void read(const std::string& content) const {
     try {
-      const SurfaceMesh mesh = read_surface(folder_.file(GetParam(), content));
+      const SurfaceMesh mesh = read_surface(write_text(folder_ / GetParam(), content));
       ASSERT_FALSE(mesh.triangles.empty());
       for (const Vec3& p : mesh.vertices) ASSERT_TRUE(p.allFinite());
       for (const Triangle& t : mesh.triangles)

@@ -21,12 +21,12 @@ using testing::HasSubstr;
 class ReadSurface : public testing::Test {
  protected:
   SurfaceMesh read(const std::string& name, std::string_view content) const {
-    return read_surface(folder_.file(name, content));
+    return read_surface(write_text(folder_ / name, content));
   }
 
   // The message of the InvalidInput that reading must end in.
   std::string error_of(const std::string& name, std::string_view content) const {
-    return error_of(folder_.file(name, content));
+    return error_of(write_text(folder_ / name, content));
   }
   static std::string error_of(const std::filesystem::path& file) {
     try {

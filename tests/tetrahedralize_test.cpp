@@ -3,13 +3,13 @@
 #include "preproc/mesh/error.hpp"
 #include "quality/tetrahedron_measures.hpp"
 #include "tests/analytic_meshes.hpp"
+#include "tests/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
 #include <filesystem>
-#include <fstream>
 
 namespace scan2fea {
 namespace {
@@ -203,71 +203,69 @@ TEST(Tetrahedralize, OpenSurfaceIsReported) {
   EXPECT_NE(failure(open), "");
 }
 
-std::filesystem::path script(const std::string& body) {
-  const auto path = std::filesystem::path(testing::TempDir()) / "worker.sh";
-  std::ofstream(path) << "#!/bin/sh\n" << body << "\n";
-  std::filesystem::permissions(path, std::filesystem::perms::owner_all);
-  return path;
-}
+class TetrahedralizeChild : public testing::Test {
+ protected:
+  // A worker of this body.
+  std::filesystem::path script(const std::string& body) const {
+    const std::filesystem::path path = write_text(folder_ / "worker.sh", "#!/bin/sh\n" + body + "\n");
+    std::filesystem::permissions(path, std::filesystem::perms::owner_all);
+    return path;
+  }
 
-TEST(TetrahedralizeChild, CrashIsReported) {
+ private:
+  TemporaryFolder folder_;
+};
+
+TEST_F(TetrahedralizeChild, CrashIsReported) {
   TetrahedralizeOptions options;
   options.tetgen.worker = script("kill -SEGV $$");
   EXPECT_THAT(failure(analytic::sphere(1, 1), options), HasSubstr("signal 11"));
 }
 
-TEST(TetrahedralizeChild, WithoutOutputIsReported) {
+TEST_F(TetrahedralizeChild, WithoutOutputIsReported) {
   TetrahedralizeOptions options;
   options.tetgen.worker = script("exit 0");
   EXPECT_THROW(tetrahedralize(analytic::sphere(1, 1), options), Error);
 }
 
-TEST(TetrahedralizeChild, TimeLimitKillsIt) {
+TEST_F(TetrahedralizeChild, TimeLimitKillsIt) {
   TetrahedralizeOptions options;
   options.tetgen.worker = script("exec sleep 60");
   options.tetgen.time = std::chrono::milliseconds(100);
   EXPECT_THAT(failure(analytic::sphere(1, 1), options), HasSubstr("time limit"));
 }
 
-TEST(TetrahedralizeChild, MemoryLimitIsReported) {
+TEST_F(TetrahedralizeChild, MemoryLimitIsReported) {
   TetrahedralizeOptions options;
   options.max_volume = 1e-5;
   options.tetgen.memory_bytes = std::uint64_t{64} << 20;
   EXPECT_THAT(failure(analytic::sphere(1, 3), options), HasSubstr("memory"));
 }
 
-TEST(TetrahedralizeChild, MissingWorkerIsReported) {
+TEST_F(TetrahedralizeChild, MissingWorkerIsReported) {
   TetrahedralizeOptions options;
   options.tetgen.worker = "/nonexistent/worker";
   EXPECT_THAT(failure(analytic::sphere(1, 1), options), HasSubstr("worker"));
 }
 
-TEST(TetrahedralizeChild, InterruptKillsIt) {
+TEST_F(TetrahedralizeChild, InterruptKillsIt) {
   TetrahedralizeOptions options;
   options.tetgen.worker = script("exec sleep 60");
   EXPECT_THROW(tetrahedralize(analytic::sphere(1, 1), options, Progress([](auto, double) { return false; })),
                Cancelled);
 }
 
-TEST(TetrahedralizeChild, LeavesNoTemporaryFolder) {
-  const auto count = [] {
-    std::size_t n = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::temp_directory_path()))
-      if (entry.path().filename().string().starts_with("scan2fea-")) ++n;
-    return n;
-  };
-  const auto folder = std::filesystem::path(testing::TempDir()) / "scan2fea_child_test";
-  std::filesystem::create_directories(folder);
+TEST_F(TetrahedralizeChild, LeavesNoTemporaryFolder) {
+  const TemporaryFolder folder;
   const char* before = std::getenv("TMPDIR");
   const std::string saved = before ? before : "";
-  setenv("TMPDIR", folder.c_str(), 1);
+  setenv("TMPDIR", folder.path().c_str(), 1);
   tetrahedralize(analytic::sphere(1, 1));
   TetrahedralizeOptions crash;
   crash.tetgen.worker = script("kill -SEGV $$");
   failure(analytic::sphere(1, 1), crash);
-  EXPECT_EQ(count(), 0u);
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
   before ? setenv("TMPDIR", saved.c_str(), 1) : unsetenv("TMPDIR");
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "preproc/volume/run_tetgen.hpp"
 
 #include "preproc/mesh/huge_pages.hpp"
+#include "preproc/mesh/temporary_folder.hpp"
 
 #include <algorithm>
 #include <array>
@@ -36,30 +37,6 @@ MeshingFailed failed(std::string what, std::string value, std::string limit, std
                         .limit = std::move(limit),
                         .advice = std::move(advice)});
 }
-
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string pattern = (fs::temp_directory_path() / "scan2fea-XXXXXX").string();
-    if (!::mkdtemp(pattern.data()))
-      throw IoError({.what = "cannot make a temporary folder",
-                     .where = pattern,
-                     .value = std::strerror(errno),
-                     .limit = {},
-                     .advice = "set TMPDIR to a writable folder"});
-    path_ = pattern;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 fs::path find_worker(const TetgenLimits& limits) {
   if (limits.worker) return *limits.worker;
@@ -186,7 +163,7 @@ int wait_for(Child& child, const TetgenLimits& limits, const Progress& progress)
 TetgenOutput run_tetgen(const TetgenInput& input, const TetgenLimits& limits, const Progress& progress) {
   const fs::path worker = find_worker(limits);
   const TemporaryFolder folder;
-  const fs::path in = folder.path() / "in", out = folder.path() / "out";
+  const fs::path in = folder / "in", out = folder / "out";
   write_exchange(input, in);
   Child child(worker, {in.string(), out.string(), std::to_string(limits.memory_bytes.value_or(0))});
   if (const int status = wait_for(child, limits, progress); status != 0) report(status, limits);
