@@ -1,23 +1,18 @@
 #include "export/gmsh_module.hpp"
 #include "export/msh.hpp"
+#include "preproc/mesh/companion_file.hpp"
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/output_file.hpp"
 #include "preproc/mesh/temporary_folder.hpp"
 
 #include <dlfcn.h>
-#include <system_error>
 
 namespace scan2fea {
 namespace {
 
-namespace fs = std::filesystem;
-
-// Beside the running executable, or where it was installed. Loaded once and kept: the SDK does not survive unloading.
+// Loaded once and kept: the SDK does not survive unloading.
 WriteByGmsh* load_writer() {
-  std::error_code error;
-  const fs::path beside = fs::read_symlink("/proc/self/exe", error).parent_path() / gmsh_module_name;
-  const fs::path installed = fs::path(SCAN2FEA_INSTALLED_MODULE_FOLDER) / gmsh_module_name;
-  const fs::path& module = !error && fs::exists(beside, error) ? beside : installed;
+  const std::filesystem::path module = companion_file(gmsh_module_name);
   void* handle = ::dlopen(module.c_str(), RTLD_NOW | RTLD_LOCAL);
   void* function = handle != nullptr ? ::dlsym(handle, write_by_gmsh_name) : nullptr;
   if (function == nullptr) {
@@ -26,7 +21,7 @@ WriteByGmsh* load_writer() {
                    .where = module.string(),
                    .value = reason != nullptr ? reason : "",
                    .limit = {},
-                   .advice = "install the module beside the command"});
+                   .advice = "install scan2fea anew, with the module"});
   }
   return reinterpret_cast<WriteByGmsh*>(function);
 }

@@ -1,5 +1,6 @@
 #include "preproc/volume/run_tetgen.hpp"
 
+#include "preproc/mesh/companion_file.hpp"
 #include "preproc/mesh/huge_pages.hpp"
 #include "preproc/mesh/temporary_folder.hpp"
 
@@ -38,17 +39,6 @@ MeshingFailed failed(std::string what, std::string value, std::string limit, std
                         .advice = std::move(advice)});
 }
 
-fs::path find_worker(const TetgenLimits& limits) {
-  if (limits.worker) return *limits.worker;
-  std::error_code error;
-  const fs::path beside = fs::read_symlink("/proc/self/exe", error).parent_path() / worker_name;
-  if (!error && ::access(beside.c_str(), X_OK) == 0) return beside;
-  const fs::path installed = fs::path(SCAN2FEA_INSTALLED_WORKER_FOLDER) / worker_name;
-  if (::access(installed.c_str(), X_OK) == 0) return installed;
-  throw failed("the TetGen worker is missing", "neither " + beside.string() + " nor " + installed.string(), {},
-               "install the worker beside the command");
-}
-
 // What the user has set stays.
 std::vector<char*> environment_of_worker(std::string& setting) {
   std::vector<char*> result;
@@ -85,7 +75,7 @@ class Child {
     if (error != 0) {
       pid_ = -1;
       throw failed("the TetGen worker does not start", name + ": " + std::strerror(error), {},
-                   "check that the file is executable");
+                   "check that it is there and may be executed, or install scan2fea anew");
     }
   }
   ~Child() {
@@ -161,7 +151,7 @@ int wait_for(Child& child, const TetgenLimits& limits, const Progress& progress)
 }  // namespace
 
 TetgenOutput run_tetgen(const TetgenInput& input, const TetgenLimits& limits, const Progress& progress) {
-  const fs::path worker = find_worker(limits);
+  const fs::path worker = limits.worker.value_or(companion_file(worker_name));
   const TemporaryFolder folder;
   const fs::path in = folder / "in", out = folder / "out";
   write_exchange(input, in);

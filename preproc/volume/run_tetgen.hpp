@@ -16,7 +16,7 @@ struct TetgenLimits {
   std::chrono::duration<double> time{3600};
   // Address space of the child in bytes. TetGen needs about 1 kB per tetrahedron. None: the machine's.
   std::optional<std::uint64_t> memory_bytes;
-  // The worker executable. None: `scan2fea-tetgen` beside the running executable, or where it was installed.
+  // The worker executable. None: `scan2fea-tetgen`, found by `companion_file`.
   std::optional<std::filesystem::path> worker;
 };
 
