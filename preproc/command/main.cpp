@@ -6,6 +6,7 @@
 #include "preproc/mesh/error.hpp"
 
 #include <CLI/CLI.hpp>
+#include <scan2fea/version.hpp>
 #include <tbb/global_control.h>
 
 #include <cstdio>
@@ -22,7 +23,7 @@ constexpr int out_of_memory = 4;
 
 int run_command(int argc, char** argv) {
   CLI::App root("From a scanned surface to a mesh that a finite-element solver accepts.", "scan2fea");
-  root.set_version_flag("--version", SCAN2FEA_VERSION);
+  root.set_version_flag("--version", library_version);
   root.require_subcommand(1);
   root.footer(
       "Exit codes: 0 done, 1 a gate failed, 2 wrong usage, 3 input unreadable, 4 no valid mesh can be made,\n"
