@@ -151,9 +151,7 @@ TEST(FindFeatures, OfABoxAreFoundUnderNoise) {
 }
 
 TEST(FindFeatures, OfFandiskAreFoundUnderNoise) {
-  const auto file = find_scan("fandisk.obj");
-  if (!file) GTEST_SKIP() << "no scan fandisk.obj; set SCAN2FEA_DATA to the folder that has it";
-  const SurfaceMesh fandisk = read_surface(*file);
+  const SurfaceMesh fandisk = read_surface(scan("fandisk.off"));
   const double diagonal = bounding_box(fandisk.vertices).diagonal();
   const std::vector<FeatureEdge> clean = find_features(fandisk).edges;
   for (const double noise : {0.0005, 0.001})
