@@ -6,6 +6,7 @@
 #include "preproc/surface/sizing/sizing_field.hpp"
 #include "preproc/surface/sizing/split_long_edges.hpp"
 #include "quality/triangle_tree.hpp"
+#include "quality/wall_thickness.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -58,25 +59,6 @@ void lower(std::vector<double>& limit, const Triangle& t, double to) {
   for (const std::uint32_t v : t) limit[v] = std::min(limit[v], to);
 }
 
-// At p, with the outward normal; infinity where the ball is larger than `largest` or what it touches does not face p.
-double wall_thickness(const TriangleTree& tree, const std::vector<Vec3>& normals, const Vec3& p, const Vec3& normal,
-                      double largest) {
-  constexpr int most_steps = 30;
-  constexpr double opposing = -0.5;  // cosine
-  double radius = largest / 2;
-  std::optional<ClosestPoint> touched;
-  for (int step = 0; step < most_steps; ++step) {
-    const ClosestPoint nearest = tree.closest(p - radius * normal);
-    if (std::sqrt(nearest.squared_distance) >= radius * (1 - 1e-6)) break;
-    const Vec3 across = p - nearest.point;
-    const double height = across.dot(normal);
-    if (!(height > 0)) return infinity;
-    touched = nearest;
-    radius = across.squaredNorm() / (2 * height);
-  }
-  return touched && normals[touched->triangle].dot(normal) < opposing ? (p - touched->point).norm() : infinity;
-}
-
 void limit_across(const SurfaceMesh& scan, int elements, double longest_edge, std::vector<double>& limit) {
   const TriangleTree tree(scan);
   const std::vector<Vec3> normals = face_normals(scan);
@@ -85,7 +67,8 @@ void limit_across(const SurfaceMesh& scan, int elements, double longest_edge, st
     for (std::size_t f = first; f < last; ++f) {
       const Triangle& t = scan.triangles[f];
       const Vec3 middle = (scan.vertices[t[0]] + scan.vertices[t[1]] + scan.vertices[t[2]]) / 3;
-      thickness[f] = wall_thickness(tree, normals, middle, normals[f], elements * longest_edge);
+      const auto wall = find_wall(scan, tree, middle, normals[f], {.deepest = elements * longest_edge});
+      thickness[f] = wall ? wall->thickness : infinity;
     }
   });
   for (std::size_t f = 0; f < thickness.size(); ++f) lower(limit, scan.triangles[f], thickness[f] / elements);

@@ -34,11 +34,10 @@ struct SizeLimits {
 // have vertices that the limits can hold for. `features` are halved with their edges.
 void refine_within_limits(SurfaceMesh& scan, std::vector<FeatureEdge>& features, const SizeLimits& limits);
 
-// Per vertex the longest edges that are allowed; infinity where there is no limit. The thickness of a wall is the
-// diameter of the largest ball inside it that touches the surface at the middle of a triangle (Ma, Bae, Choi, "3D
-// medial axis point approximation using nearest neighbors and the normal field", 2012) and, opposite, a triangle that
-// faces the other way within 60 degrees; looked for where it matters to edges of up to `longest_edge`. Beside edges of
-// the body such balls touch its sides instead, so limits there are those of the triangles next to them, graded.
+// Per vertex the longest edges that are allowed; infinity where there is no limit. The thickness of a wall
+// (quality/wall_thickness.hpp) is measured behind the middles of triangles, and looked for where it matters to edges of
+// up to `longest_edge`. Beside edges of the body there is none, so limits there are those of the triangles next to
+// them, graded.
 // Throws WrongUsage for limits out of range. O(n log n); parallel.
 std::vector<double> longest_edges(const SurfaceMesh& scan, const SizeLimits& limits, double longest_edge);
 
