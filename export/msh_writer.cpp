@@ -6,13 +6,16 @@
 #include "preproc/mesh/temporary_folder.hpp"
 
 #include <dlfcn.h>
+#include <system_error>
 
 namespace scan2fea {
 namespace {
 
+namespace fs = std::filesystem;
+
 // Loaded once and kept: the SDK does not survive unloading.
 WriteByGmsh* load_writer() {
-  const std::filesystem::path module = companion_file(gmsh_module_name);
+  const fs::path module = companion_file(gmsh_module_name);
   void* handle = ::dlopen(module.c_str(), RTLD_NOW | RTLD_LOCAL);
   void* function = handle != nullptr ? ::dlsym(handle, write_by_gmsh_name) : nullptr;
   if (function == nullptr) {

@@ -1,9 +1,9 @@
 #include "preproc/surface/features/feature_selection.hpp"
 
+#include "preproc/mesh/union_find.hpp"
 #include "preproc/surface/kernel/adjacency.hpp"
 #include "preproc/surface/kernel/components.hpp"
 #include "preproc/surface/kernel/cut_surface.hpp"
-#include "preproc/mesh/union_find.hpp"
 #include "quality/triangle_measures.hpp"
 
 #include <algorithm>

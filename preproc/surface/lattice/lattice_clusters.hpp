@@ -1,8 +1,8 @@
 // Which nodes of the refined scan become one vertex of the lattice.
 #pragma once
 
-#include "preproc/surface/features/feature_net.hpp"
 #include "preproc/mesh/union_find.hpp"
+#include "preproc/surface/features/feature_net.hpp"
 #include "preproc/surface/lattice/position_field.hpp"
 
 #include <cstdint>

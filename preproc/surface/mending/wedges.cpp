@@ -1,9 +1,9 @@
 #include "preproc/surface/mending/wedges.hpp"
 
+#include "preproc/mesh/union_find.hpp"
 #include "preproc/surface/fit/preserve_volume.hpp"
 #include "preproc/surface/kernel/nearest.hpp"
 #include "preproc/surface/kernel/rings.hpp"
-#include "preproc/mesh/union_find.hpp"
 #include "preproc/surface/mending/defects.hpp"
 #include "preproc/surface/mending/local_moves.hpp"
 #include "preproc/surface/placement/shape_energy.hpp"

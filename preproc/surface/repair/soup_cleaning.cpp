@@ -58,7 +58,10 @@ class Sheets {
 
   explicit Sheets(const SurfaceMesh& mesh) : joined_(mesh.triangles.size()), sheet_of_face_(mesh.triangles.size(), 0) {
     EdgeGroups(mesh).for_each([&](const std::uint32_t* first, const std::uint32_t* last) {
-      if (last - first == 2) return joined_.unite(first[0] / 3, first[1] / 3);
+      if (last - first == 2) {
+        joined_.unite(first[0] / 3, first[1] / 3);
+        return;
+      }
       any_odd_ |= last - first > 2 && (last - first) % 2 == 1;
       const auto at = static_cast<std::uint32_t>(around_.size());
       around_.insert(around_.end(), first, last);
