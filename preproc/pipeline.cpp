@@ -119,7 +119,8 @@ void describe(const TetrahedralizeResult& result, StageRecord& record) {
 }
 
 // What was gained, and the same figures of the mesh that stands now as of the first.
-void describe(const RenewalResult& renewal, const FilledSurface& made, StageRecord& record) {
+void describe(const RenewalResult& renewal, StageRecord& record) {
+  const FilledSurface& made = renewal.made;
   if (renewal.gained()) describe(made.filled, record);
   record.changes.insert(record.changes.begin(), {{"surfaces_made", static_cast<double>(renewal.rounds)},
                                                  {"min_dihedral_before_deg", renewal.min_dihedral_before_deg},
@@ -173,7 +174,9 @@ PipelineResult run_pipeline(SurfaceMesh scan, const PipelineOptions& options, co
     });
     if (options.simplify && worth_renewing(simplification, tetrahedralization, made))
       log.run("renewal", [&](StageRecord& record) {
-        describe(renew_where_poor(dense, simplification, tetrahedralization, made, progress), made, record);
+        RenewalResult renewal = renew_where_poor(dense, simplification, tetrahedralization, std::move(made), progress);
+        describe(renewal, record);
+        made = std::move(renewal.made);
       });
   }
   result.surface = std::move(made.surface);

@@ -1,6 +1,7 @@
 #include "preproc/tetrahedra_search.hpp"
 
 #include "preproc/mesh/error.hpp"
+#include "preproc/surface/sizing/shorter_edges.hpp"
 #include "preproc/volume/poor_elements.hpp"
 #include "quality/tetrahedron_measures.hpp"
 
@@ -10,16 +11,18 @@
 namespace scan2fea {
 namespace {
 
-constexpr double good_deg = 24;
-constexpr double of_bound = 0.9;
-// A surface that allows less is itself to be mended if it can be.
-constexpr double least_deg = 20;
-constexpr double many_poor = 0.1;  // of the elements
+// Elements below good_deg are poor: on surfaces without thin places the optimisation reaches 24.7 to 31 degrees
+// (tests/benchmark/README.md). Where the surface itself allows less, of_bound of that will do, but below least_deg the
+// surface is itself to be mended if it can be.
+constexpr double good_deg = 24, of_bound = 0.9, least_deg = 20;
+// A share of all elements; with more the surface is too coarse as a whole.
+constexpr double many_poor = 0.1;
+// A first surface of more takes too long to make again.
 constexpr std::size_t most_triangles = 50000;
-constexpr double most_growth = 2, most_of_small = 12000;  // triangles, over the first surface's or absolute
+// No more triangles than these, over the first surface's or absolute.
+constexpr double most_growth = 2, most_of_small = 12000;
+// A smaller gain is not worth other triangles than the ones that were told.
 constexpr double worth_it_deg = 1;
-// Around a poor element: over its longest edge, and of the surface's edges there, by how poor it is.
-constexpr double reach = 1.5, most_shortening = 0.5, least_shortening = 0.75;
 
 double smallest_dihedral(const FilledSurface& made) {
   return measure_tetrahedra(made.filled.mesh).min_dihedral_deg;
@@ -40,10 +43,12 @@ bool can_be_mended(const std::vector<PoorElement>& poor, const FilledSurface& ma
                                         many_poor * static_cast<double>(made.filled.mesh.tetrahedra.size()));
 }
 
-void shorten_around(const std::vector<PoorElement>& poor, SizeLimits& limits) {
+// Edges shorter than those that the elements' surroundings had.
+void limit_edges_around(const std::vector<PoorElement>& poor, SizeLimits& limits) {
   for (const PoorElement& element : poor) {
-    const double shortening = std::clamp(element.min_dihedral_deg / good_deg, most_shortening, least_shortening);
-    limits.balls.push_back({{element.centre, reach * element.longest_edge}, shortening * element.surface_edge});
+    const auto [where, factor] =
+        shorter_edges(element.centre, element.longest_edge, element.min_dihedral_deg, good_deg);
+    limits.balls.push_back({where, factor * element.surface_edge});
   }
 }
 
@@ -59,7 +64,7 @@ bool worth_renewing(const SimplifyOptions& simplification, const TetrahedralizeO
 }
 
 RenewalResult renew_where_poor(const SurfaceMesh& scan, const SimplifyOptions& simplification,
-                               const TetrahedralizeOptions& tetrahedralization, FilledSurface& made,
+                               const TetrahedralizeOptions& tetrahedralization, FilledSurface made,
                                const Progress& progress) {
   RenewalResult result;
   result.min_dihedral_before_deg = result.min_dihedral_after_deg = smallest_dihedral(made);
@@ -67,10 +72,11 @@ RenewalResult renew_where_poor(const SurfaceMesh& scan, const SimplifyOptions& s
   const double most = std::max(most_growth * static_cast<double>(made.surface.triangles.size()), most_of_small);
   SimplifyOptions finer = simplification;
   FilledSurface latest = made;
-  while (result.rounds < most_rounds && !is_good(result.min_dihedral_after_deg, made)) {
+  result.made = std::move(made);
+  while (result.rounds < most_rounds && !is_good(result.min_dihedral_after_deg, result.made)) {
     const std::vector<PoorElement> poor = poor_elements(latest);
     if (!can_be_mended(poor, latest)) break;
-    shorten_around(poor, finer.limits);
+    limit_edges_around(poor, finer.limits);
     ++result.rounds;
     try {
       latest.simplified = simplify(scan, latest.surface, finer, progress);
@@ -84,7 +90,7 @@ RenewalResult renew_where_poor(const SurfaceMesh& scan, const SimplifyOptions& s
     const double angle = smallest_dihedral(latest);
     if (angle < result.min_dihedral_after_deg + worth_it_deg) continue;
     result.min_dihedral_after_deg = angle;
-    made = latest;
+    result.made = latest;
   }
   return result;
 }

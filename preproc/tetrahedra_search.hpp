@@ -24,18 +24,19 @@ bool worth_renewing(const SimplifyOptions& simplification, const TetrahedralizeO
                     const FilledSurface& made);
 
 struct RenewalResult {
-  int rounds = 0;  // surfaces made
+  FilledSurface made;  // the best, which may be the first
+  int rounds = 0;      // surfaces made
   double min_dihedral_before_deg = 0;
   double min_dihedral_after_deg = 0;  // never less
   bool gained() const { return min_dihedral_after_deg > min_dihedral_before_deg; }
 };
 
-// `made` came of `scan` with these options. Replaced where a renewed one has a smallest dihedral angle larger by a
-// degree, until none is poor. Each round costs as much as `made` did; three at most, and with Effort::high six. At most
-// twice as many triangles, or 12,000. Throws Cancelled. The same result for any number of threads. Not guaranteed: a
-// gain.
+// `made` came of `scan` with these options. A renewed one takes its place where its smallest dihedral angle is larger
+// by a degree, until none is poor. Each round costs as much as `made` did; three at most, and with Effort::high six. At
+// most twice as many triangles, or 12,000. Throws Cancelled. The same result for any number of threads. Not guaranteed:
+// a gain.
 RenewalResult renew_where_poor(const SurfaceMesh& scan, const SimplifyOptions& simplification,
-                               const TetrahedralizeOptions& tetrahedralization, FilledSurface& made,
+                               const TetrahedralizeOptions& tetrahedralization, FilledSurface made,
                                const Progress& progress = {});
 
 }  // namespace scan2fea

@@ -37,17 +37,17 @@ TEST(TetrahedraSearch, MendsElementsInAThinWall) {
   ASSERT_TRUE(chain.worth());
   const double before = measure_tetrahedra(chain.made.filled.mesh).min_dihedral_deg;
   const RenewalResult result = renew_where_poor(chain.scan, chain.simplification, chain.tetrahedralization, chain.made);
-  const TetSummary after = measure_tetrahedra(chain.made.filled.mesh);
+  const TetSummary after = measure_tetrahedra(result.made.filled.mesh);
   EXPECT_TRUE(result.gained());
   EXPECT_EQ(result.min_dihedral_before_deg, before);
   EXPECT_EQ(result.min_dihedral_after_deg, after.min_dihedral_deg);
   EXPECT_GT(after.min_dihedral_deg, 22);
   EXPECT_EQ(after.inverted, 0u);
   // The surface and the mesh in it belong together, and enclose what the scan does.
-  EXPECT_EQ(chain.made.filled.mesh.boundary.size(), chain.made.surface.triangles.size());
-  EXPECT_NEAR(after.volume, enclosed_volume(chain.made.surface), 1e-10 * after.volume);
+  EXPECT_EQ(result.made.filled.mesh.boundary.size(), result.made.surface.triangles.size());
+  EXPECT_NEAR(after.volume, enclosed_volume(result.made.surface), 1e-10 * after.volume);
   EXPECT_NEAR(after.volume, enclosed_volume(chain.scan), 1e-9 * after.volume);
-  EXPECT_TRUE(find_self_intersections(chain.made.surface).empty());
+  EXPECT_TRUE(find_self_intersections(result.made.surface).empty());
 }
 
 TEST(TetrahedraSearch, IsNotForGoodElements) {

@@ -15,7 +15,6 @@ constexpr double degrees = 180 / std::numbers::pi;
 // Triangles with smaller angles are bad, and walls whose elements have smaller ones. Between two creases less will do:
 // such an element need not be flat.
 constexpr double least_angle_deg = 30, least_across_wall_deg = 25, least_corner_deg = 19;
-constexpr double reach = 1.5;  // around a bad triangle, over its longest edge
 // A wall is looked for up to this depth, in edges. Its sides face one another within 37 degrees.
 constexpr double deepest_wall = 0.5, opposing = -0.8;
 // Cosine of what normals beside a place may differ by for it to have one.
@@ -40,9 +39,7 @@ class ShapeCheck {
       for (std::uint32_t k = 0; k < 3; ++k)
         least = std::min({least, corner_angle(f, k, longest, found), half_wedge(f, k)});
       found.least_angle_deg = std::min(found.least_angle_deg, least);
-      if (least < least_angle_deg)
-        found.bad.push_back(
-            {(p + q + r) / 3, reach * longest, std::clamp(least / least_angle_deg, most_shortening, least_shortening)});
+      if (least < least_angle_deg) found.bad.push_back(shorter_edges((p + q + r) / 3, longest, least, least_angle_deg));
     }
     return found;
   }

@@ -4,24 +4,16 @@
 
 #include "preproc/surface/features/feature_selection.hpp"
 #include "preproc/surface/simplification/surface_candidate.hpp"
+#include "preproc/surface/sizing/shorter_edges.hpp"
 
 #include <algorithm>
 #include <vector>
 
 namespace scan2fea {
 
-// What is wanted of the edges around a bad triangle, over what they were: by how bad it is.
-inline constexpr double least_shortening = 0.75, most_shortening = 0.5;
-
-// Where edges are to be `shortening` times as long as they were wanted.
-struct BadPlace {
-  Vec3 centre;
-  double reach, shortening;
-};
-
 struct ShapeDefects {
-  double least_angle_deg = 180;  // but for corners between two creases
-  std::vector<BadPlace> bad;
+  double least_angle_deg = 180;      // but for corners between two creases
+  std::vector<ShorterEdges> bad;     // around what is bad, as shorter as it is worse
   double sharpest_corner_deg = 180;  // between two creases
   std::vector<SharpCorner> sharp_corners;
 

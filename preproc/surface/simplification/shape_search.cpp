@@ -49,16 +49,6 @@ bool is_better(const ShapeDefects& defects, const ShapeDefects& other) {
   return defects.least_angle_deg > other.least_angle_deg;
 }
 
-void shorten_around(const std::vector<BadPlace>& bad, const SurfaceMesh& scan, std::vector<double>& length) {
-  for (std::size_t v = 0; v < length.size(); ++v) {
-    double factor = 1;
-    for (const BadPlace& place : bad)
-      if ((scan.vertices[v] - place.centre).squaredNorm() < place.reach * place.reach)
-        factor = std::min(factor, place.shortening);
-    length[v] *= factor;
-  }
-}
-
 int patience(std::size_t triangles) {
   return triangles < many_triangles        ? most_in_vain
          : triangles < very_many_triangles ? most_in_vain_of_many
