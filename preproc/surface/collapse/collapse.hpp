@@ -1,8 +1,8 @@
-// Simplification by edge contraction, as the paper has it: candidates are predicted by a local decimation cost, the
-// cheapest edge is contracted, and the kept vertex is placed by the entropy of its star in the tangent plane and
-// lifted. No vertex moves afterwards. Source: the paper, section 3 (bending energy as predictor, entropy as corrector).
-// Quadrics: Garland and Heckbert, "Surface simplification using quadric error metrics", 1997. Link condition: Dey,
-// Edelsbrunner et al., 1999.
+// Simplification by edge contraction, as [1] has it: candidates are predicted by a local decimation cost, the cheapest
+// edge is contracted, and the kept vertex is placed by the entropy of its star in the tangent plane and lifted. No
+// vertex moves afterwards. Source: [1], section 3 (bending energy as predictor, entropy as corrector; README.md lists
+// the sources). Quadrics: Garland and Heckbert, "Surface simplification using quadric error metrics", 1997. Link
+// condition: Dey, Edelsbrunner et al., 1999.
 #pragma once
 
 #include "preproc/mesh/progress.hpp"

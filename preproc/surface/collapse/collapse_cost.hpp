@@ -1,4 +1,5 @@
-// The predictors of `collapse`: what contracting an edge would cost.
+// The predictors of `collapse`: what contracting an edge would cost. Source: [1], section 3 (bending energy; README.md
+// lists the sources); quadrics: Garland and Heckbert, 1997.
 #pragma once
 
 #include "preproc/surface/collapse/collapse_options.hpp"

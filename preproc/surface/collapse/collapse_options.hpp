@@ -1,4 +1,4 @@
-// What the collapse is told, and what it tells.
+// What the collapse is told, and what it tells. [1] is in the list of sources in README.md.
 #pragma once
 
 #include "preproc/surface/placement/star_objective.hpp"
@@ -22,7 +22,7 @@ enum class CollapseCost {
 enum class CollapseLifting {
   keep_volume,    // to the height at which the star encloses the volume that it did before (Lindstrom and Turk, 1998)
   closest_point,  // on the surface as it was given
-  shepard,        // the paper's: Shepard interpolation of the star's own vertices; flattens a little each time
+  shepard,        // that of [1]: Shepard interpolation of the star's own vertices; flattens a little each time
 };
 
 // "bending-energy", "quadric-error", "edge-length", "sized-length".

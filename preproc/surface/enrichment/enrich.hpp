@@ -1,15 +1,15 @@
 // Enrichment: new points where the scanner left too few.
-// Source: the paper, section 2. A point with at most K neighbours within the sampling radius R_s, and an empty sector
-// of at least 90 degrees among them, gets a new point on the sector's bisector, which is lifted from the tangent plane
-// to the surface. Three things differ from the paper's letter, because measuring asked for them:
-//  - the new point's base lies on the triangulation, at 0.586 R_s, and is refused nearer than 0.414 R_s to another
-//  point.
-//    0.414 is the radius of the circle inscribed in a sector of 90 degrees, so that a needed point is never refused for
-//    lack of room, and packing bounds their number;
-//  - it is inserted into the mesh (1 to 3, or an edge split, then Delaunay flips), so that topology and borders stay,
-//  and
-//    neighbours are found along the surface;
-//  - its height comes from measured points alone, never from other new points.
+// Source: [1], section 2 (README.md lists the sources). A point with at most K neighbours within the sampling radius
+// R_s, and an empty sector of at least 90 degrees among them (importance.hpp), gets a new point on the sector's
+// bisector, which is lifted from the tangent plane to the surface. Three things differ from the letter of [1], because
+// measuring asked for them:
+//  - The new point's base lies on the triangulation, at 0.586 R_s, and is refused nearer than 0.414 R_s to another
+//    point. 0.414 R_s is the radius of the largest circle that fits into a sector of 90 degrees and radius R_s, and
+//    0.586 R_s the distance of its centre, so that a needed point is never refused for lack of room; and packing bounds
+//    the number of points.
+//  - It is inserted into the mesh (1 to 3, or an edge split, then Delaunay flips), so that topology and borders stay
+//    and neighbours are found along the surface.
+//  - Its height comes from measured points alone, never from other new points.
 #pragma once
 
 #include "preproc/mesh/progress.hpp"
@@ -36,7 +36,7 @@ struct EnrichOptions {
 
   EnrichDomain domain = WholeSurface{};
 
-  // K of the paper, 3 to 20: a point with more neighbours within R_s is content.
+  // K of [1], 3 to 20: a point with more neighbours within R_s is content.
   std::size_t most_neighbours = 6;
 
   // Content too if no sector of the tangent plane as wide as this is empty. Degrees, 60 to 180.
@@ -44,11 +44,11 @@ struct EnrichOptions {
 
   // How the height is found. Distance of the new points to the truth over that of the flat triangulation, on an uneven
   // scan of the Horse / of a part with sharp edges: hermite 0.62 / 0.81; before creases were told apart, moving least
-  // squares 0.77 / 1.19, modified quadratic Shepard 0.77 / 1.13, the paper's Shepard 1.4 / 1.6 against hermite's 0.60 /
+  // squares 0.77 / 1.19, modified quadratic Shepard 0.77 / 1.13, the Shepard of [1] 1.4 / 1.6 against hermite's 0.60 /
   // 0.88.
   Lifting lifting = Lifting::hermite;
 
-  // Move each new point, before it is lifted, to where its star's Phi is best (the paper uses its entropy there). The
+  // Move each new point, before it is lifted, to where its star's Phi is best ([1] uses its entropy there). The
   // place on the bisector is nearly as good already, and closer to the truth after lifting: off.
   bool place_by_entropy = false;
 

@@ -1,7 +1,7 @@
 // Lifting: the height of a surface over a point of a tangent plane, from measured points near it.
-// Source: the paper, section 2 (Shepard interpolation with Wendland's compactly supported radial basis function as its
-// weight), and three ways that make fewer bumps: Renka's modified quadratic Shepard method (ACM TOMS 14, 1988), and
-// moving least squares with a quadric, on heights alone or on heights and normals (Hermite).
+// Source: [1], section 2 (Shepard interpolation with Wendland's compactly supported radial basis function as its
+// weight; README.md lists the sources), and three ways that make fewer bumps: Renka's modified quadratic Shepard method
+// (ACM TOMS 14, 1988), and moving least squares with a quadric, on heights alone or on heights and normals (Hermite).
 #pragma once
 
 #include "preproc/mesh/surface_mesh.hpp"
@@ -12,7 +12,7 @@
 namespace scan2fea {
 
 enum class Lifting {
-  shepard,                     // the paper's: the weighted mean of the heights; pulls towards flat steps
+  shepard,                     // that of [1]: the weighted mean of the heights; pulls towards flat steps
   modified_quadratic_shepard,  // the weighted mean of quadrics through the samples
   moving_least_squares,        // one quadric, fitted with weights that interpolate
   hermite,                     // the same, fitted to the samples' normals as well

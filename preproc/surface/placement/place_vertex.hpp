@@ -1,6 +1,6 @@
 // Moves one vertex in the tangent plane of its star so that the star's objective becomes best, then lifts it.
-// Source: the paper, sections 2 and 3 (Nelder-Mead in the tangent plane, then lifting). The smooth objective, Phi of
-// eta, is minimised by Newton's method instead, at a fifteenth of the cost.
+// Source: [1], sections 2 and 3 (Nelder-Mead in the tangent plane, then lifting; README.md lists the sources). The
+// smooth objective, Phi of eta, is minimised by Newton's method instead, at a fifteenth of the cost.
 #pragma once
 
 #include "preproc/surface/placement/star_objective.hpp"

@@ -1,8 +1,8 @@
 // Objectives of a vertex's star: one number for how good its triangles are together, a function of their ratios.
-// Source: the paper's equations 2 and 3 (Shannon entropy and A-entropy of the edge ratios), and two objectives that
-// keep its idea and do make triangles equilateral: eq. 2 is blind to the level of the ratios, eq. 3 is largest where
-// they are equally spaced, so neither does alone. All functions take N >= 1 ratios, each >= 1 (1 for an equilateral
-// triangle), and cost O(N) or O(N log N).
+// Source: [1], eq. 2 and eq. 3 (Shannon entropy and A-entropy of the edge ratios; README.md lists the sources), and
+// two objectives that keep its idea and do make triangles equilateral: eq. 2 is blind to the level of the ratios, eq. 3
+// is largest where they are equally spaced, so neither does alone. All functions take N >= 1 ratios, each >= 1 (1 for
+// an equilateral triangle), and cost O(N) or O(N log N).
 #pragma once
 
 #include "preproc/mesh/surface_mesh.hpp"

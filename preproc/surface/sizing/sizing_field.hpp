@@ -1,4 +1,4 @@
-// How long the edges of the result are to be at each place of the scan: the paper's importance function I_f.
+// The sizing field: how long the edges of the result are to be at each place of the scan.
 #pragma once
 
 #include "preproc/mesh/surface_mesh.hpp"
