@@ -84,6 +84,8 @@ class Simplifier {
       const double key = heap_.top_key();
       const Index h = heap_.pop();
       if (predictor_.sees_far()) {
+        // Contractions around have changed it. At 0 or 20 % instead of 2 % the 99th percentile of the edge ratio
+        // is 2.42 or 2.45 instead of 2.39 (the Horse to 8,000 faces).
         const double now = predictor_(h);
         if (now > key * 1.02) {
           heap_.push(h, now);
@@ -168,6 +170,7 @@ class Simplifier {
     if (!mesh_.is_border(h)) return keeps_orientation(a) ? std::optional(a) : std::nullopt;
     const Vec3 before = mesh_.points[border_predecessor(mesh_.origin(h))];
     const Vec3 after = mesh_.points[mesh_.target(mesh_.outgoing(mesh_.target(h)))];
+    // A border with the turns of a regular polygon of more than twelve sides may be thinned; sharper corners stay.
     const double straight = cosine_of_deg(30);
     const auto turns = [&](const Vec3& from, const Vec3& to) {
       return from.dot(to) < straight * from.norm() * to.norm();
@@ -239,10 +242,13 @@ class Simplifier {
       samples_.push_back({p, normal});
       radius = std::max(radius, (p - x).norm());
     }
+    // Wendland's weight is 0 at the radius: the farthest vertex would not count.
     return x + lifted_height(Lifting::shepard, samples_, x, normal, 1.01 * radius) * normal;
   }
 
-  // No face of the star turns by more than the limit, and none folds back onto its outer neighbour.
+  // No face of the star turns by more than the limit, and none folds back onto its outer neighbour: by
+  // more than 102 degrees, where it did so less before. Without that limit the 99th percentile of the edge ratio
+  // is 2.43 instead of 2.39 on the Horse at 8,000 faces; at 73 degrees, which refuses too much, 2.47.
   bool keeps_orientation(const Vec3& place) const {
     for (const Index r : rim_) {
       const Vec3& from = mesh_.points[mesh_.origin(r)];

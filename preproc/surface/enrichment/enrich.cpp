@@ -22,7 +22,7 @@ namespace {
 using Index = HalfedgeMesh::Index;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// In R_s; see the header.
+// In R_s: the distance of a new point from the one that asks for it, and the least from any other; see the header.
 constexpr double placement_distance = 0.586;
 constexpr double separation = 0.414;
 
@@ -196,9 +196,9 @@ class Enricher {
 
   // To the height that the measured points around tell, unless it is not credible or would fold the star.
   void lift(Index v, const Triangle& seeds, const Vec3& base) {
-    // With normals, three equations each for six unknowns; and from all sides: at the rim of a gap the nearest points
-    // all lie on one side of it.
-    // Beyond a thousand new points the measured ones are too far to tell.
+    // Ten samples give thirty equations for six unknowns, or ten without normals. They must lie on all sides, since at
+    // the rim of a gap the nearest points all lie on one side of it; sixty bound the cost.
+    // Where a thousand points were met, nearly all of them new, the measured ones are too far to tell.
     constexpr std::size_t wanted_samples = 10, most_samples = 60, most_visits = 1000;
     const Vec3 normal = normals_.mean(v);
     FilledSectors sectors(base, normal);
@@ -216,7 +216,7 @@ class Enricher {
           closest = std::min(closest, farthest);
           return samples_.size() < most_samples && (samples_.size() < wanted_samples || !sectors.surrounded());
         });
-    // Wendland's weight is 0 at the radius: the farthest sample would not count.
+    // Wendland's weight is 0 at the radius, where the farthest sample would not count.
     const double height = lifted_height(options_.lifting, samples_, base, normal, 1.2 * farthest);
     const Vec3 place = base + height * normal;
     if (!(std::abs(height) <= 0.8 * closest) || folds(v, place) || !has_room(seeds, place, normal, v)) {

@@ -9,9 +9,13 @@
 namespace scan2fea {
 namespace {
 
-constexpr double piece_of_length = 1.0 / 6;                // candidates on long segments, of h
-constexpr double nearest_candidates_of_length = 1.0 / 12;  // of fine polylines not every vertex is one
-constexpr double longest_step = 2.5;                       // of h
+// All three are over the wanted length h. Long segments have candidates for samples at this distance: half of it is as much as a
+// step can miss h by, and relaxation takes that away.
+constexpr double piece_of_length = 1.0 / 6;
+// Vertices of fine polylines that are nearer than this to the last candidate are none.
+constexpr double nearest_candidates_of_length = 1.0 / 12;
+// No longer step is looked at: two would cost less.
+constexpr double longest_step = 2.5;
 constexpr int relaxation_sweeps = 6;
 
 // A step longer than this share of its curve would leave too few: with 0.45 there are at least three steps, with 0.65
@@ -166,7 +170,7 @@ void even_out(const Polyline& line, std::vector<Place>& places, std::size_t from
   even_out(line, places, middle, to);
 }
 
-// What is left between bends that the halves did not part.
+// Evens out what is left between bends that the halves did not part.
 void relax(const Polyline& line, std::vector<Place>& places) {
   double shift = piece_of_length / 2;
   for (int sweep = 0; sweep < relaxation_sweeps; ++sweep, shift *= 0.6) {
@@ -230,7 +234,7 @@ std::size_t sharpest_bend(const Polyline& loop) {
   for (std::size_t i = 0; i < n; ++i) {
     const Vec3 in = (loop.points[i] - loop.points[(i + n - 1) % n]).normalized();
     const Vec3 out = (loop.points[i + 1] - loop.points[i]).normalized();
-    // The first of equal ones, whatever rounding says.
+    // The first of equal bends is taken, whatever rounding says.
     if (in.dot(out) < least - 1e-9) {
       least = in.dot(out);
       best = i;

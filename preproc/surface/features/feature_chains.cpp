@@ -110,7 +110,7 @@ void CreaseChains::drop_free_ends(double shortest) {
     if (spurs.empty()) return;
     std::sort(spurs.begin(), spurs.end(),
               [](const Spur& a, const Spur& b) { return a.length != b.length ? a.length < b.length : a.end < b.end; });
-    // Those that share no fork with one dropped before in this round.
+    // Only those go that share no fork with one dropped before in this round.
     std::vector<std::uint32_t> forks;
     for (const Spur& spur : spurs) {
       const FeatureEdge& last = edges_[spur.edges.back()].ends;

@@ -161,7 +161,7 @@ class TurnsOfCurve {
     return curve_.closed ? std::min(d, total_ - d) : d;
   }
 
-  // At this arc length; beyond the ends of an open curve, its ends.
+  // The point at this arc length; beyond the ends of an open curve, its ends.
   Vec3 point(double s) const {
     const std::size_t n = curve_.vertices.size();
     if (curve_.closed) {

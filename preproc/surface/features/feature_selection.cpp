@@ -15,7 +15,7 @@
 namespace scan2fea {
 namespace {
 
-// Each joins patches with neighbours; a nest of small ones takes several.
+// Each round joins patches with neighbours; a nest of small ones takes several.
 constexpr int most_rounds = 20;
 
 // A crease and the patches beside it, the smaller number first.
@@ -54,7 +54,7 @@ std::vector<CreaseEdge> creases_with_patches(const SurfaceMesh& scan, const std:
   return creases;
 }
 
-// One round; whether anything was joined.
+// One round. Returns whether anything was joined.
 bool join_small_patches(const SurfaceMesh& scan, const std::vector<Vec3>& normals, double least_area,
                         std::vector<FeatureEdge>& sharp) {
   const CutSurface cut = cut_along(scan, sharp);

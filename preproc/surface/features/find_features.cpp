@@ -23,7 +23,7 @@ constexpr double sharper_than_noise = 1.75;
 // Noise flattens some edges of a crease, but not all of them in a row, to below this share of the limit.
 constexpr double near_crease_of_angle = 0.6;
 
-// Of the angle of a weak crease.
+// The share of a weak crease's angle that the filter leaves.
 constexpr double continuation_left_by_filter = 0.75;
 
 double mean_edge_length(const SurfaceMesh& scan) {
@@ -37,7 +37,7 @@ double angle_deg(const Vec3& a, const Vec3& b) {
   return angle_between(a, b) * (180 / std::numbers::pi);
 }
 
-// Faces near an edge that is sharper than the angle: those within three rings.
+// Faces within three rings of an edge that is sharper than the angle.
 std::vector<std::uint32_t> faces_near_sharp_edges(const SurfaceMesh& scan, const VertexStars& stars,
                                                   const std::vector<Triangle>& neighbours,
                                                   const std::vector<Vec3>& normals, double above_deg) {

@@ -43,7 +43,8 @@ void CutMesh::choose_copies(std::vector<std::uint32_t>& nearest, const Reference
 }
 
 void slide_all(Fitter& fitter, CutMesh& cut, FeatureNet& net, const VertexConstraints& constraints) {
-  // Of the way to a neighbour.
+  // The part of the way to a neighbour that a vertex slides at most: two that slide towards one another keep half of
+  // it.
   constexpr double farthest_slide = 0.25;
   for (FeatureLine& line : net.lines) {
     const std::size_t n = line.vertices.size();

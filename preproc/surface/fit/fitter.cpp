@@ -19,12 +19,12 @@ using Range = tbb::blocked_range<std::size_t>;
 
 // A step of more than this part of the smallest edge or height around a vertex could turn a triangle over.
 constexpr double longest_step = 0.3;
-// Of a Newton step, as in successive over-relaxation: six rounds then do more than eight without.
+// The factor on a Newton step, as in successive over-relaxation: six rounds then do more than eight without.
 constexpr double over_relaxation = 1.5;
 // More samples a face than this do not improve the fit; on a scan far finer than the mesh they would take its time and
 // memory.
 constexpr std::size_t most_samples_per_face = 12;
-// Of parts with edges: planes and cylinders need fewer.
+// The same for parts with edges: planes and cylinders need fewer.
 constexpr std::size_t most_samples_per_face_of_parts = 6;
 // Scan triangles longer than this part of the mean edge are subdivided, so that each face gets samples.
 constexpr double longest_scan_edge = 0.7;

@@ -16,7 +16,7 @@
 namespace scan2fea {
 namespace {
 
-// Of a volume, that may be missing in the end: far above rounding, far below any other error.
+// The part of a volume that may be missing in the end: far above rounding, far below any other error.
 constexpr double largest_rest = 1e-9;
 
 // The parts of a surface that hang together, without the vertices that have no triangle.

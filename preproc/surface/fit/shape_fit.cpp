@@ -39,8 +39,9 @@ void check(const SurfaceMesh& mesh, const ReferenceSurface& scan, const ShapeFit
 template <class AfterSweep>
 ShapeFitResult run_rounds(Fitter& fitter, double diagonal, const ShapeFitOptions& options, const Progress& progress,
                           const AfterSweep& after_sweep) {
+  // Before this round the distances are those of the start, not of what the triangles can reach.
   constexpr int first_dialled_round = 2;
-  constexpr double loosest = 0.01;
+  constexpr double loosest = 0.01;  // of the diagonal
   ShapeFitResult result;
   result.fidelity_of_diagonal = options.fidelity_of_diagonal;
   for (int round = 0; round < options.rounds; ++round) {

@@ -12,16 +12,18 @@
 namespace scan2fea {
 namespace {
 
-// Over the wanted edge length: with features halved to this, each sample has vertices of its own beside it.
+// Edges of features are halved until they are shorter than this times the wanted edge length: each sample then has
+// vertices of its own beside it.
 constexpr double longest_feature_edge = 0.56;
 // How far chords may be from a curve grows with the fourth power of the mean edge, from the given tolerance on edges of
 // a hundredth of the diagonal, up to a part of the edge: on coarse meshes, samples as dense as a fixed tolerance asks
 // for would force lengths on the surface that change faster than a lattice can follow.
 constexpr double tolerance_growth = 9200;
 constexpr double largest_tolerance_of_edge = 0.05;
-// Growth of edge lengths from the curves into the surface.
+// The growth of edge lengths from the curves into the surface. It is above the surface's own, 0.12, so that
+// closely sampled curves make less of it fine.
 constexpr double gradation_from_curves = 0.25;
-// Of sampling, and of telling the surface what came of it.
+// Rounds of sampling the curves and of telling the surface what came of it.
 constexpr int rounds_of_spacing = 2;
 // A sample so near to a vertex of its curve, in parts of the segment, takes the vertex.
 constexpr double snap = 1e-3;
@@ -185,7 +187,7 @@ void number_samples(const Welded& scan, const FeatureCurves& curves, const Sampl
     anchors.net.lines.push_back(std::move(line));
     anchors.vertices_of_line.push_back(curve.vertices);
   }
-  // A corner is of several curves.
+  // A corner belongs to several curves, and has one number.
   for (std::size_t v = 0; v < number.size(); ++v)
     if (number[v] != no_sample) sample_of_vertex[v] = number[v];
 }

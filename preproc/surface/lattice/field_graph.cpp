@@ -11,8 +11,10 @@ namespace scan2fea {
 namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+// The number of nodes at which coarsening ends: so few cost nothing to solve.
 constexpr std::size_t coarse_enough = 100;
-constexpr double same_side_cosine = 0.342;  // 70 degrees
+// Cosine of 70 degrees: nodes whose normals turn more from one another are not joined.
+constexpr double same_side_cosine = 0.342;
 
 double cotangent(const Vec3& apex, const Vec3& a, const Vec3& b) {
   const Vec3 u = a - apex, v = b - apex;
@@ -80,7 +82,7 @@ GraphLevel finest_level(const RefinedScan& scan) {
     const double third = area_vector(scan.mesh, t).norm() / 6;
     for (const std::uint32_t v : t) level.areas[v] += third;
   }
-  // Needles have none; means over areas then still have a value.
+  // Vertices with needles alone around them have no area; means over areas then still have a value.
   const double least = 1e-9 * surface_area(scan.mesh) / static_cast<double>(level.areas.size());
   for (double& a : level.areas) a = std::max(a, least);
   level.log_length.resize(scan.edge_length.size());
@@ -89,7 +91,8 @@ GraphLevel finest_level(const RefinedScan& scan) {
   return level;
 }
 
-// Against edge weights of about 0.6: a lattice that turns away from its borders costs 0.03 in the mean edge ratio.
+// Edges weigh about 0.6, so that the features' own directions hold against all their neighbours: a lattice that turns
+// away from its borders costs 0.03 in the mean edge ratio.
 constexpr double guide_weight = 20;
 
 void tie_to_features(const Anchors& anchors, GraphLevel& level) {
@@ -169,7 +172,7 @@ void coarse_edges(const GraphLevel& fine, const Members& members, GraphLevel& co
   }
 }
 
-// Of the anchors below a node, the nearest.
+// A coarse node takes the nearest of the anchors below it, and the sum of the guides.
 void inherit_ties(const std::vector<Vec3>& places, const GraphLevel& fine, const Members& members, GraphLevel& coarse) {
   coarse.anchor.assign(coarse.size(), no_sample);
   coarse.guide.assign(coarse.size(), 0);

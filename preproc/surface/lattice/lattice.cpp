@@ -16,8 +16,9 @@
 namespace scan2fea {
 namespace {
 
-// A little more than wanted, since collapses of what is too much disturb the lattice less than splits. Beside creases
-// the count is known less well, and splits do more harm: a vertex of four small faces may rise to a spike.
+// A little more is asked for than wanted, since collapses of what is too much disturb the lattice less than splits.
+// Beside creases the count is known less well, and splits do more harm: a vertex of four small faces may rise to a
+// spike.
 constexpr double surplus = 1.01;
 constexpr double surplus_with_features = 1.02;
 // Farther off than this, collapses and splits would spoil the lattice: it is laid anew with the lengths corrected.
@@ -45,7 +46,7 @@ double share_of_valence_six(const SurfaceMesh& mesh) {
   return static_cast<double>(std::count(valence.begin(), valence.end(), 6)) / static_cast<double>(valence.size());
 }
 
-// Of an improved cut mesh, the mesh welded again, with its net.
+// An improved cut mesh, welded again, with its net.
 struct Rewelded {
   SurfaceMesh mesh;
   std::vector<double> edge_length;

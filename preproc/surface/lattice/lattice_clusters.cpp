@@ -10,9 +10,12 @@ namespace scan2fea {
 namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-constexpr double farthest_join = 0.6;              // edge lengths between lattice points that may become one
-constexpr double smallest_cluster = 0.3;           // cells
-constexpr double cell_area = 0.86602540378443865;  // of a lattice of edge length 1, sqrt(3)/2
+// Lattice points that may become one are at most this far apart, in edge lengths: neighbouring points of the lattice
+// are 1 apart, and a little more than half of that allows for the disagreement of the two ends.
+constexpr double farthest_join = 0.6;
+// Clusters of less than this part of a cell are not a lattice point's, but leftovers between such.
+constexpr double smallest_cluster = 0.3;
+constexpr double cell_area = 0.86602540378443865;  // sqrt(3)/2: a cell of a lattice of edge length 1
 
 }  // namespace
 
@@ -78,7 +81,7 @@ bool LatticeClusters::dissolve(std::uint32_t root) {
   return true;
 }
 
-// All nodes of a sample, on whatever side, are one set at its place.
+// All nodes of a sample, on whatever side of a feature, are one set at its place.
 void LatticeClusters::join_anchored(const std::vector<Vec3>& anchors) {
   if (anchors.empty()) return;
   std::vector<std::uint32_t> first(anchors.size(), none);

@@ -19,7 +19,7 @@ std::vector<SmallComplex> transports(const GraphLevel& level) {
       const TangentFrame here(level.normals[i]);
       for (std::uint32_t e = level.first[i]; e < level.first[i + 1]; ++e) {
         const std::uint32_t j = level.neighbours[e];
-        if (j > i) continue;  // done from there
+        if (j > i) continue;  // the other end does both
         const TangentFrame there(level.normals[j]);
         const Complex carried = transport(there, here);
         const Vec3 step = level.positions[i] - level.positions[j];
@@ -128,7 +128,8 @@ OrientationField compute_orientation_field(const FieldGraph& graph, const Orient
     const std::vector<SmallComplex> carried = transports(level);
     z.resize(level.size());
     if (l + 1 == graph.levels.size()) {
-      // It starts from nothing and costs nothing.
+      // The coarsest level starts from arbitrary directions, so it needs many sweeps; it has so few nodes that they
+      // cost nothing.
       solve_coarsest(level, carried, 20 * options.sweeps, z);
     } else {
       const GraphLevel& coarse = graph.levels[l + 1];

@@ -27,7 +27,7 @@ std::vector<LatticeStep> edge_steps(const GraphLevel& level, const std::vector<C
       const LatticeNode here(level.positions[i], level.normals[i], directions[i], lengths[i]);
       for (std::uint32_t e = level.first[i]; e < level.first[i + 1]; ++e) {
         const std::uint32_t j = level.neighbours[e];
-        if (j > i) continue;  // done from there
+        if (j > i) continue;  // the other end does both
         steps[e] = lattice_step({level.positions[j], level.normals[j], directions[j], lengths[j]}, here);
         steps[level.mate(static_cast<std::uint32_t>(i), e)] = inverse(steps[e]);
       }

@@ -11,7 +11,8 @@ namespace {
 // Piecewise constant prolongation underestimates smooth corrections; this makes up for most of it.
 constexpr double coarse_correction = 1.4;
 constexpr int smoothing_sweeps = 2;
-// Of nodes on features, against edge weights of about 0.6: the distances between samples are what they are.
+// How strongly nodes on features are held, against edge weights of about 0.6: the distances between their samples are
+// what they are.
 constexpr double held_mass = 100;
 
 // Per node, the gradient of theta in the node's frame: its differences along the edges, matched modulo 60°.

@@ -14,7 +14,8 @@
 namespace scan2fea {
 namespace {
 
-constexpr double cap_quality = 0.02;  // 1 / eta, of a height of about a hundredth of the longest side
+// 1 / eta of a triangle whose height is about a hundredth of its longest side: it counts as having no area.
+constexpr double cap_quality = 0.02;
 
 double worst_of_star(const SurfaceMesh& mesh, const ReferenceSurface& scan, const std::vector<std::uint32_t>& near,
                      std::span<const std::uint32_t> corners) {
@@ -141,8 +142,9 @@ std::size_t flip_caps(SurfaceMesh& mesh, const std::vector<FeatureEdge>& kept) {
 
 bool push_apart(SurfaceMesh& mesh, const ReferenceSurface& scan, const std::vector<std::uint32_t>& near,
                 const std::vector<FacePair>& crossings, const VertexConstraints& constraints) {
-  // Beyond this the two normals do not tell sheets that face one another.
+  // The difference of two unit normals 29 degrees apart: sheets that cross at less do not tell which way is apart.
   constexpr double least_difference = 0.5;
+  // A quarter of an edge, for each of the two sheets.
   constexpr int most_steps = 16;
   const double step = scan.mean_edge(mesh.triangles.size()) / 64;
   std::vector<FacePair> pairs = crossings;
@@ -166,6 +168,8 @@ bool push_apart(SurfaceMesh& mesh, const ReferenceSurface& scan, const std::vect
     if (faces.empty()) return false;
     for (std::uint32_t v = 0; v < push.size(); ++v) {
       const bool fixed = !constraints.empty() && constraints[v] == VertexConstraint::fixed;
+      // A push is a sum of unit vectors. Where it is this short they cancel, as at a vertex between two sheets that
+      // push it both ways, and its direction would be that of rounding.
       if (!fixed && push[v].norm() > 0.1) mesh.vertices[v] += step * push[v].normalized();
     }
     // Their neighbours moved along: all faces around the pairs are checked.

@@ -18,15 +18,15 @@
 namespace scan2fea {
 namespace {
 
-// Around a place: with fewer rings the rim holds what should move, with more the fit costs more.
+// Rings of faces around a place: with fewer the rim holds what should move, with more the fit costs more.
 constexpr int fewest_rings = 1;
 constexpr int most_rings = 3;
-// Of the scan that are asked for their distance: more of a dense scan tell little more.
+// So many vertices of the scan are asked for their distance: more of a dense scan tell little more.
 constexpr std::size_t most_vertices_per_face = 6;
-// Of the limit: what the exact volume's shift may take.
+// The part of the limit that is kept free for the exact volume's shift.
 constexpr double reserve = 0.01;
-// Where nothing helps, shape gives way, so often and by so much each time; then all is tried from the start again,
-// since what has changed around gives other ways, until nothing did.
+// Where nothing helps, smaller angles are allowed, so often and by so much each time; then all is tried from the start
+// again, since what has changed around gives other ways, until nothing changes any more.
 constexpr int most_yielding = 3;
 constexpr double yielding_deg = 8;
 
@@ -47,7 +47,7 @@ void check(const LocalRefinementOptions& options) {
                       .advice = {}});
 }
 
-// What is worked towards.
+// The deviation that is worked towards.
 double goal_limit(const LocalRefinementOptions& options) {
   return (1 - reserve) * options.limit;
 }
@@ -134,8 +134,8 @@ std::vector<std::vector<std::uint32_t>> scan_faces_near(const SurfaceMesh& scan,
   return near;
 }
 
-// Those at once that are apart from each other, until each has had its turn or was within another's patch, which then
-// had it for its own. Returns those whose patches are still too far.
+// Mends places that are apart from each other at once, until each has had its turn or lay within the patch of another,
+// which then stood for it. Returns those whose patches are still too far.
 std::vector<Place> mend(SurfaceMesh& mesh, FeatureNet& net, const ReferenceSurface& scan, std::vector<Place> places,
                         int rings, const PatchGoal& goal, const LocalRefinementOptions& options,
                         LocalRefinementResult& result) {

@@ -15,15 +15,15 @@
 namespace scan2fea {
 namespace {
 
-// Enough for a tangle to spread out, few enough to leave the rest of the surface alone.
+// Two rings are enough for a tangle to spread out, and few enough to leave the rest of the surface alone.
 constexpr int rings_of_repair = 2;
 constexpr int smoothing_sweeps = 10;
 // Some angles cannot be had (a sharp corner of the part): then further rounds are in vain.
 constexpr int most_rounds_without_gain = 3;
-// Of an edge: more than the volume's shift, less than any mending.
+// Over an edge length: a move by more than the volume's shift, and by less than any mending.
 constexpr double negligible_move = 0.005;
 
-// Nothing that crosses or is inverted comes before every angle.
+// Fewer faces that cross or are inverted are better, whatever the angles; among equals the angles decide.
 bool is_better(const SurfaceDefects& a, const SurfaceDefects& b) {
   const std::size_t harm_a = a.crossings.size() + a.inverted.size();
   const std::size_t harm_b = b.crossings.size() + b.inverted.size();
@@ -65,7 +65,7 @@ void drop_own_angles(SurfaceDefects& defects, const SurfaceMesh& mesh, const std
   });
 }
 
-// Once more weight on shape, where `movable` is set.
+// Fits again with more weight on shape, where `movable` is set.
 void refit(SurfaceMesh& mesh, FeatureNet& net, const ReferenceSurface& scan, const std::vector<bool>& movable,
            double fidelity, const std::optional<std::vector<std::uint32_t>>& nearest_to_scan) {
   ShapeFitOptions fit;
@@ -100,7 +100,9 @@ void mend(SurfaceMesh& mesh, FeatureNet& net, const ReferenceSurface& scan, cons
   } else if (round > 0) {
     flip_worst(mesh, scan, near, net.empty() ? movable : region, edges_of(net));
   }
-  // Vertices on lines may slide, and edges that end on a line flip.
+  // Vertices on lines may slide, and edges that end on a line flip. Each round allows half as
+  // much distance again, 26 times as much in the eighth and last, which is near where the growth ends: what little
+  // weight on shape mends stays close to the scan.
   refit(mesh, net, scan, net.empty() ? movable : region,
         std::min(options.loosest_fidelity_of_diagonal, options.fidelity_of_diagonal * std::pow(1.5, round + 1)),
         nearest_to_scan);

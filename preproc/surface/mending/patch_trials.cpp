@@ -18,14 +18,15 @@
 namespace scan2fea {
 namespace {
 
-// Of the merit, which is a fourth power of distances: a step must gain at least 3 % of the excess.
+// What a step must bring the merit down to. The merit is a fourth power of distances: 0.88 is 3 % less of them.
 constexpr double least_gain = 0.88;
-// Of the deviation's bounds, see DeviationBoundOptions.
+// How far apart the bounds of the deviation may be, see DeviationBoundOptions.
 constexpr double close_tolerance = 0.02;
 constexpr double rough_tolerance = 0.3;
 // Scan triangles longer than this part of the mean edge are cut, so that a patch answers for parts of large ones.
 constexpr double longest_scan_edge = 0.7;
-// Where the fit's extra weight on far samples begins, over the limit, and its most.
+// Where the fit's extra weight on far samples begins, over the limit, and the most that it may be: a sample at twice
+// the limit has nearly all of it (see ShapeFitOptions::lift_tail_of_diagonal).
 constexpr double tail_of_limit = 0.5;
 constexpr double most_lift = 300;
 
@@ -33,7 +34,7 @@ Vec3 centroid(const SurfaceMesh& mesh, const Triangle& t) {
   return (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3;
 }
 
-// What is kept of a scan or a surface: the faces for which a patch answers.
+// The marked faces, as a surface of their own.
 SurfaceMesh selected(const SurfaceMesh& mesh, const std::vector<bool>& keep) {
   std::vector<std::uint32_t> faces, vertices;
   for (std::uint32_t f = 0; f < keep.size(); ++f)
@@ -159,6 +160,7 @@ void Surroundings::fit(Trial& trial) const {
   ShapeFitOptions options;
   options.rounds = 6;
   options.hold_faces_below = 1;
+  // The diagonal is that of a piece of the scan: on a tiny one the fidelity would pass 0.1, the most that a fit takes.
   options.fidelity_of_diagonal = std::min(0.09, goal_.fidelity / fit_scan_->diagonal);
   options.lift_tail_of_diagonal = tail_of_limit * goal_.limit / fit_scan_->diagonal;
   options.most_lift = most_lift;

@@ -15,8 +15,10 @@ namespace {
 
 using Index = HalfedgeMesh::Index;
 
+// A step costs about twenty trials; a place whose patch is not within the limit after so many gets another, with
+// more rings (see local_refinement.cpp).
 constexpr int most_steps = 6;
-// A step without insertions that gains so much needs none.
+// Where the fit or flips alone halve the merit, no vertices are inserted in that step.
 constexpr double good_gain = 0.5;
 
 // The faces around a set of vertices that grows.
@@ -194,6 +196,10 @@ RefinementPatch::RefinementPatch(const SurfaceMesh& mesh, const VertexStars& sta
   lines_ = lines_within(patch_, outline_.vertices, lines);
   outline_.edge =
       std::sqrt(4 / std::numbers::sqrt3 * surface_area(patch_) / static_cast<double>(outline_.faces.size()));
+  // The scan is as far away as the place deviates, so the box must reach that far; a tenth more and 0.3 of an edge
+  // leave the vertices room to move outwards. A larger box makes the search for what is in it slower and lets fewer
+  // patches be improved at once; from 0 to 1 edge the Horse's mean edge ratio and RMS distance stay within half a per
+  // cent.
   const double reach = 1.1 * deviation + 0.3 * outline_.edge;
   outline_.box = bounding_box(patch_.vertices);
   outline_.box.low.array() -= reach;

@@ -47,7 +47,8 @@ std::vector<Height> heights_over_plane(std::span<const SurfaceSample> samples, c
   return heights;
 }
 
-// Wendland's weight made to interpolate: infinite, but for rounding, at the sample.
+// Wendland's weight made to interpolate: infinite at the sample, but for the 1e-10 that spares a division by zero. A
+// sample nearer than a hundred-thousandth of the radius counts as met.
 double interpolating_weight(double distance2) {
   return wendland(std::sqrt(distance2)) / (distance2 + 1e-10);
 }
@@ -63,8 +64,8 @@ double shepard(const std::vector<Height>& heights) {
 }
 
 // Weighted least squares by the normal equations. The last three unknowns are the coefficients of u^2, u v and v^2;
-// they are drawn to zero where the rows leave them open, by the quadric's bending energy, so that the axes do not
-// matter.
+// they are drawn to zero where the rows leave them open, by the quadric's bending energy, which does not depend on the
+// axes.
 template <int unknowns>
 class LeastSquares {
  public:
@@ -76,6 +77,10 @@ class LeastSquares {
     total_ += weight;
   }
 
+  // The first term keeps the factorisation from dividing by zero where samples lie in a line or are too few, and is far
+  // below any sample's weight. The second is the bending energy, 4 d^2 + 2 e^2 + 4 f^2 for d u^2 + e u v + f v^2, which
+  // gives the weights 1, 1/2 and 1: a hundred-thousandth of the samples' weight settles what they leave open without
+  // a trace where they do not.
   Row solve() {
     matrix_.diagonal().array() += 1e-12 * total_;
     matrix_.diagonal().template tail<3>() += 1e-5 * total_ * Vec3(1, 0.5, 1);
@@ -90,7 +95,7 @@ class LeastSquares {
 
 // The height at the base of a quadric a + b u + c v + d u^2 + e u v + f v^2.
 double moving_least_squares(const std::vector<Height>& heights, bool with_normals) {
-  // Slopes weigh as heights at this distance would. Over the radius.
+  // Slopes weigh as heights at this distance, over the radius, would.
   constexpr double slope_length = 0.3;
   LeastSquares<6> system;
   using Row = LeastSquares<6>::Row;
@@ -98,7 +103,8 @@ double moving_least_squares(const std::vector<Height>& heights, bool with_normal
     const double w = interpolating_weight(h.distance2);
     system.add(w, Row(1, h.u, h.v, h.u * h.u, h.u * h.v, h.v * h.v), h.z);
     if (!with_normals) continue;
-    // Without the pole: normals are estimates and not to be met exactly.
+    // Without the pole: normals are estimates and not to be met exactly. 0.04 is the square of a fifth of the radius:
+    // nearer samples than that tell the slope alike.
     const double ws = slope_length * slope_length * wendland(std::sqrt(h.distance2)) / (h.distance2 + 0.04);
     system.add(ws, Row(0, 1, 0, 2 * h.u, h.v, 0), h.zu);
     system.add(ws, Row(0, 0, 1, 0, h.u, 2 * h.v), h.zv);

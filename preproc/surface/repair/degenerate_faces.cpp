@@ -40,7 +40,7 @@ bool mend(HalfedgeMesh& surface, std::uint32_t face, RepairResult& result) {
   } else {
     const std::uint32_t edge = h[2];
     if (!surface.can_flip(edge)) return false;
-    // Of no use if the faces after it are degenerate as well.
+    // A flip is of no use if the faces after it are degenerate as well.
     const Vec3 &a = surface.points[surface.origin(edge)], &b = surface.points[surface.target(edge)];
     const Vec3& c = surface.points[surface.target(HalfedgeMesh::next(edge))];
     const Vec3& d = surface.points[surface.target(HalfedgeMesh::next(surface.opposite(edge)))];

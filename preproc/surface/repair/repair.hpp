@@ -63,8 +63,8 @@ struct RepairOptions {
 //
 // Throws InvalidInput: indices out of range, coordinates that are not finite, no faces. NotMeshable, naming the place,
 // the value and the limit: a hole too large to close; no volume (below 1e-6 of area^1.5) where nothing is open;
-// intersections that remain, or
-// that only cutting out more than a third of the surface would remove. The mesh is then in an unspecified state.
+// intersections that remain, or that only cutting out more than a third of the surface would remove. The mesh is then
+// in an unspecified state.
 //
 // A sound surface costs a check of its connectivity and one search for intersections, O(n log n). A hole of b border
 // edges costs about O(b^2).
