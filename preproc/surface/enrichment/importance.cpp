@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <numbers>
 #include <utility>
@@ -14,23 +15,9 @@ constexpr double pi = std::numbers::pi;
 
 }  // namespace
 
-TangentPlane::TangentPlane(const Vec3& origin, const Vec3& normal) : origin_(origin) {
-  Eigen::Index axis;
-  normal.cwiseAbs().minCoeff(&axis);
-  u_ = normal.cross(Vec3::Unit(axis)).normalized();
-  v_ = normal.cross(u_);
-}
-
-double TangentPlane::angle(const Vec3& p) const {
-  return std::atan2((p - origin_).dot(v_), (p - origin_).dot(u_));
-}
-
-Vec3 TangentPlane::direction(double angle) const {
-  return std::cos(angle) * u_ + std::sin(angle) * v_;
-}
-
 void FilledSectors::add(const Vec3& p) {
-  filled_[static_cast<std::size_t>((plane_.angle(p) + pi) / (2 * pi) * 6) % 6] = true;
+  const double angle = std::arg(frame_.coordinates(p - origin_));
+  filled_[static_cast<std::size_t>((angle + pi) / (2 * pi) * 6) % 6] = true;
 }
 
 bool FilledSectors::surrounded() const {
@@ -49,15 +36,15 @@ void Importance::search_from(Index v, double radius, Visit visit) {
 }
 
 std::vector<Vec3> Importance::empty_sectors(Index v, const ImportanceOptions& options) {
-  const TangentPlane plane(mesh_.points[v], normals_.mean(v));
+  const TangentFrame frame(normals_.mean(v));
   std::vector<double> angles;
   search_from(v, options.sampling_radius, [&](Index w, double) {
-    angles.push_back(plane.angle(mesh_.points[w]));
+    angles.push_back(angle_to(v, frame, mesh_.points[w]));
     return angles.size() <= options.most_neighbours;
   });
   if (angles.size() > options.most_neighbours) return {};
-  if (angles.empty()) angles.push_back(plane.angle(far_end_of_longest_edge(v)));
-  if (mesh_.is_border_vertex(v)) fill_outside(v, plane, angles);
+  if (angles.empty()) angles.push_back(angle_to(v, frame, far_end_of_longest_edge(v)));
+  if (mesh_.is_border_vertex(v)) fill_outside(v, frame, angles);
   std::sort(angles.begin(), angles.end());
 
   const double least = options.empty_sector_deg * pi / 180;
@@ -68,7 +55,7 @@ std::vector<Vec3> Importance::empty_sectors(Index v, const ImportanceOptions& op
   }
   std::sort(sectors.begin(), sectors.end());
   std::vector<Vec3> bisectors;
-  for (const auto& [width, bisector] : sectors) bisectors.push_back(plane.direction(bisector));
+  for (const auto& [width, bisector] : sectors) bisectors.push_back(frame.vector(std::polar(1.0, bisector)));
   return bisectors;
 }
 
@@ -90,6 +77,10 @@ double Importance::median_spacing(std::span<const Index> vertices) {
   return *middle;
 }
 
+double Importance::angle_to(Index v, const TangentFrame& frame, const Vec3& p) const {
+  return std::arg(frame.coordinates(p - mesh_.points[v]));
+}
+
 Vec3 Importance::far_end_of_longest_edge(Index v) const {
   Vec3 far = mesh_.points[v];
   double longest = 0;
@@ -104,11 +95,11 @@ Vec3 Importance::far_end_of_longest_edge(Index v) const {
 }
 
 // Beyond a border nothing is missing: directions there count as taken.
-void Importance::fill_outside(Index v, const TangentPlane& plane, std::vector<double>& angles) const {
+void Importance::fill_outside(Index v, const TangentFrame& frame, std::vector<double>& angles) const {
   Index last = HalfedgeMesh::none;
   mesh_.for_each_neighbour(v, [&](Index w) { last = w; });
-  const double from = plane.angle(mesh_.points[last]);
-  double to = plane.angle(mesh_.points[mesh_.target(mesh_.outgoing(v))]);
+  const double from = angle_to(v, frame, mesh_.points[last]);
+  double to = angle_to(v, frame, mesh_.points[mesh_.target(mesh_.outgoing(v))]);
   if (to < from) to += 2 * pi;
   for (double angle = from; angle < to; angle += 0.25 * pi) angles.push_back(std::remainder(angle, 2 * pi));
   angles.push_back(std::remainder(to, 2 * pi));

@@ -7,6 +7,7 @@
 #include "preproc/surface/enrichment/side_normals.hpp"
 #include "preproc/surface/enrichment/surface_walk.hpp"
 #include "preproc/surface/kernel/halfedge_mesh.hpp"
+#include "preproc/surface/kernel/tangent_frame.hpp"
 
 #include <array>
 #include <cstddef>
@@ -19,29 +20,18 @@ namespace scan2fea {
 // sides of a right-angled edge still see each other, those of a thin wall do not.
 inline constexpr double smallest_neighbour_cosine = -0.2;
 
-// Directions in a tangent plane.
-class TangentPlane {
- public:
-  TangentPlane(const Vec3& origin, const Vec3& normal);
-
-  double angle(const Vec3& p) const;
-  Vec3 direction(double angle) const;
-
- private:
-  Vec3 origin_, u_, v_;
-};
-
 // Which of the six sectors of 60 degrees around a point of a tangent plane hold another point: where no two that adjoin
 // are empty, the points surround it.
 class FilledSectors {
  public:
-  FilledSectors(const Vec3& origin, const Vec3& normal) : plane_(origin, normal) {}
+  FilledSectors(const Vec3& origin, const Vec3& normal) : origin_(origin), frame_(normal) {}
 
   void add(const Vec3& p);
   bool surrounded() const;
 
  private:
-  TangentPlane plane_;
+  Vec3 origin_;
+  TangentFrame frame_;
   std::array<bool, 6> filled_{};
 };
 
@@ -70,8 +60,10 @@ class Importance {
   template <class Visit>
   void search_from(Index v, double radius, Visit visit);
 
+  // In the frame at v.
+  double angle_to(Index v, const TangentFrame& frame, const Vec3& p) const;
   Vec3 far_end_of_longest_edge(Index v) const;
-  void fill_outside(Index v, const TangentPlane& plane, std::vector<double>& angles) const;
+  void fill_outside(Index v, const TangentFrame& frame, std::vector<double>& angles) const;
 
   const HalfedgeMesh& mesh_;
   const SideNormals& normals_;

@@ -1,6 +1,7 @@
 #include "preproc/surface/placement/lifting.hpp"
 
 #include "preproc/mesh/names.hpp"
+#include "preproc/surface/kernel/tangent_frame.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
@@ -30,19 +31,16 @@ struct Height {
 
 std::vector<Height> heights_over_plane(std::span<const SurfaceSample> samples, const Vec3& base, const Vec3& normal,
                                        double radius, double smallest_cosine) {
-  Eigen::Index axis;
-  normal.cwiseAbs().minCoeff(&axis);
-  const Vec3 u = normal.cross(Vec3::Unit(axis)).normalized();
-  const Vec3 v = normal.cross(u);
+  const TangentFrame frame(normal);
   std::vector<Height> heights;
   heights.reserve(samples.size());
   for (const SurfaceSample& sample : samples) {
     const Vec3 d = (sample.point - base) / radius;
     const double cosine = sample.normal.dot(normal);
-    const double x = d.dot(u), y = d.dot(v);
+    const double x = d.dot(frame.x), y = d.dot(frame.y);
     if (x * x + y * y >= 1 || cosine < smallest_cosine) continue;
-    heights.push_back(
-        {x, y, d.dot(normal), -sample.normal.dot(u) / cosine, -sample.normal.dot(v) / cosine, x * x + y * y});
+    heights.push_back({x, y, d.dot(normal), -sample.normal.dot(frame.x) / cosine, -sample.normal.dot(frame.y) / cosine,
+                       x * x + y * y});
   }
   return heights;
 }
