@@ -1,6 +1,7 @@
 #include "quality/deviation.hpp"
 
 #include "preproc/mesh/error.hpp"
+#include "preproc/mesh/splitmix64.hpp"
 #include "quality/triangle_tree.hpp"
 #include "quality/validity.hpp"
 
@@ -17,21 +18,14 @@ namespace {
 constexpr std::size_t block_size = 2048;  // of samples; fixed, so that sums round the same for any number of threads
 
 // Numbers in [0, 1) that depend on nothing but the seed and the index, so that samples can be drawn in parallel.
-// Finaliser of splitmix64 (Steele, Lea, Flood, 2014).
 class IndexedRandom {
  public:
-  explicit IndexedRandom(std::uint64_t seed) : key_(mixed(seed)) {}
+  explicit IndexedRandom(std::uint64_t seed) : key_(splitmix64(seed)) {}
   double operator()(std::uint64_t index) const {
-    return static_cast<double>(mixed(key_ + index * 0x9e3779b97f4a7c15U) >> 11) * 0x1p-53;
+    return static_cast<double>(splitmix64(key_ + index * splitmix64_step) >> 11) * 0x1p-53;
   }
 
  private:
-  static std::uint64_t mixed(std::uint64_t z) {
-    z += 0x9e3779b97f4a7c15U;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
-    return z ^ (z >> 31);
-  }
   std::uint64_t key_;
 };
 

@@ -1,5 +1,7 @@
 #include "quality/face_blocks.hpp"
 
+#include "preproc/mesh/morton_code.hpp"
+
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
@@ -14,18 +16,7 @@ namespace {
 using Range = tbb::blocked_range<std::size_t>;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double cells_per_axis = 2097151;  // 21 bits, three of which fit in a key
-
-// The lower 21 bits, each followed by two zeros.
-std::uint64_t spread(std::uint64_t bits) {
-  bits &= 0x1fffff;
-  bits = (bits | bits << 32) & 0x1f00000000ffff;
-  bits = (bits | bits << 16) & 0x1f0000ff0000ff;
-  bits = (bits | bits << 8) & 0x100f00f00f00f00f;
-  bits = (bits | bits << 4) & 0x10c30c30c30c30c3;
-  bits = (bits | bits << 2) & 0x1249249249249249;
-  return bits;
-}
+constexpr double cells_per_axis = (1 << morton_bits) - 1;
 
 }  // namespace
 
@@ -50,8 +41,8 @@ FaceBlocks::FaceBlocks(const SurfaceMesh& mesh) : order_(mesh.triangles.size()) 
         const Triangle& t = mesh.triangles[f];
         const Vec3 centre = (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3;
         const Vec3 cell = scale * (centre - whole.low);
-        keys[f] = {spread(static_cast<std::uint64_t>(cell.x())) | spread(static_cast<std::uint64_t>(cell.y())) << 1 |
-                       spread(static_cast<std::uint64_t>(cell.z())) << 2,
+        keys[f] = {morton_code(static_cast<std::uint64_t>(cell.x()), static_cast<std::uint64_t>(cell.y()),
+                               static_cast<std::uint64_t>(cell.z())),
                    static_cast<std::uint32_t>(f)};
       }
     });

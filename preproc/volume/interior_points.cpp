@@ -1,5 +1,8 @@
 #include "preproc/volume/interior_points.hpp"
 
+#include "preproc/mesh/morton_code.hpp"
+#include "preproc/mesh/splitmix64.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -13,7 +16,6 @@ constexpr double growth = 0.3;          // of edge length per distance from the 
 constexpr double shrinkage = 0.5;       // the same, where the inside is to be finer
 constexpr double jitter = 1e-4;         // of a cell
 constexpr double wall_in_edges = 0.8;   // thinner is thin
-constexpr int key_bits = 21;            // per axis
 
 double mean_edge(const SurfaceMesh& surface) {
   double sum = 0;
@@ -22,30 +24,10 @@ double mean_edge(const SurfaceMesh& surface) {
   return sum / (3.0 * static_cast<double>(surface.triangles.size()));
 }
 
-// A place on the finest grid that the octree may reach, and a number in the order of a space-filling curve.
+// A place on the finest grid that the octree may reach.
 struct GridPlace {
   std::array<std::uint32_t, 3> at;
 };
-
-std::uint64_t spread(std::uint64_t x) {
-  x = (x | x << 32) & 0x1f00000000ffff;
-  x = (x | x << 16) & 0x1f0000ff0000ff;
-  x = (x | x << 8) & 0x100f00f00f00f00f;
-  x = (x | x << 4) & 0x10c30c30c30c30c3;
-  return (x | x << 2) & 0x1249249249249249;
-}
-
-std::uint64_t morton(const GridPlace& p) {
-  return spread(p.at[0]) | spread(p.at[1]) << 1 | spread(p.at[2]) << 2;
-}
-
-// splitmix64: a hash whose bits are as good as random, the same on every machine.
-std::uint64_t hashed(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
-  return x ^ (x >> 31);
-}
 
 struct LatticePoint {
   std::uint64_t key;
@@ -72,11 +54,11 @@ class LatticeTree {
     while (cell < extent) cell *= 2;
     root_cell_ = cell;
     origin_ = (box.low + box.high) / 2 - Vec3::Constant(cell / 2);
-    unit_ = cell / (1 << (key_bits - 1));
+    unit_ = cell / (1 << (morton_bits - 1));
   }
 
   std::vector<Vec3> points() {
-    visit({{0, 0, 0}}, 1U << (key_bits - 1), 0);
+    visit({{0, 0, 0}}, 1U << (morton_bits - 1), 0);
     std::sort(found_.begin(), found_.end(), [](const LatticePoint& a, const LatticePoint& b) {
       return a.key != b.key ? a.key < b.key : a.known_inside > b.known_inside;
     });
@@ -126,13 +108,13 @@ class LatticeTree {
   }
 
   void add(const GridPlace& at, double cell, bool known_inside, std::uint32_t nearest) {
-    found_.push_back({morton(at), cell, place(at), known_inside, nearest});
+    found_.push_back({morton_code(at.at[0], at.at[1], at.at[2]), cell, place(at), known_inside, nearest});
   }
 
   Vec3 place(const GridPlace& p) const { return origin_ + unit_ * Vec3(p.at[0], p.at[1], p.at[2]); }
 
   static Vec3 displacement(const LatticePoint& p) {
-    const std::uint64_t random = hashed(p.key);
+    const std::uint64_t random = splitmix64(p.key);
     Vec3 d;
     for (int k = 0; k < 3; ++k) d[k] = static_cast<double>(random >> (21 * k) & 0x1fffff) / 0x100000 - 1;
     return jitter * p.cell * d;

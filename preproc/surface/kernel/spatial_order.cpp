@@ -1,19 +1,12 @@
 #include "preproc/surface/kernel/spatial_order.hpp"
 
+#include "preproc/mesh/morton_code.hpp"
 #include "preproc/surface/kernel/parallel_blocks.hpp"
 
 #include <algorithm>
 
 namespace scan2fea {
 namespace {
-
-// The bits of a 10-bit number, two zeros after each.
-std::uint32_t spread_bits(std::uint32_t x) {
-  x = (x | (x << 16)) & 0x030000ffU;
-  x = (x | (x << 8)) & 0x0300f00fU;
-  x = (x | (x << 4)) & 0x030c30c3U;
-  return (x | (x << 2)) & 0x09249249U;
-}
 
 // The vertices in Morton order, by two passes of counting sort over 15 bits each.
 std::vector<std::uint32_t> morton_order(const std::vector<Vec3>& points) {
@@ -24,8 +17,9 @@ std::vector<std::uint32_t> morton_order(const std::vector<Vec3>& points) {
   for_each_block(points.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t v = first; v < last; ++v) {
       const Vec3 at = (points[v] - box.low) * scale;
-      key[v] = spread_bits(static_cast<std::uint32_t>(at[0])) | (spread_bits(static_cast<std::uint32_t>(at[1])) << 1) |
-               (spread_bits(static_cast<std::uint32_t>(at[2])) << 2);
+      key[v] = static_cast<std::uint32_t>(  // of 30 bits, ten per axis
+          morton_code(static_cast<std::uint32_t>(at[0]), static_cast<std::uint32_t>(at[1]),
+                      static_cast<std::uint32_t>(at[2])));
     }
   });
   std::vector<std::uint32_t> order(points.size()), sorted(points.size());

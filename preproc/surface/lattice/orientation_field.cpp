@@ -1,8 +1,10 @@
 #include "preproc/surface/lattice/orientation_field.hpp"
 
+#include "preproc/mesh/splitmix64.hpp"
 #include "preproc/surface/kernel/parallel_blocks.hpp"
 
 #include <cmath>
+#include <numbers>
 
 namespace scan2fea {
 namespace {
@@ -36,12 +38,9 @@ std::vector<SmallComplex> transports(const GraphLevel& level) {
   return result;
 }
 
-// A starting direction that differs from node to node but not from run to run: a hash of the index.
+// A starting direction that differs from node to node but not from run to run.
 Complex arbitrary_direction(std::size_t node) {
-  std::uint64_t x = node + 0x9e3779b97f4a7c15U;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebU;
-  return std::polar(1.0, static_cast<double>((x ^ (x >> 31)) & 0xffffU) * (6.283185307179586 / 65536));
+  return std::polar(1.0, static_cast<double>(splitmix64(node) & 0xffffU) * (2 * std::numbers::pi / 65536));
 }
 
 Complex guide(const GraphLevel& level, std::size_t node) {
