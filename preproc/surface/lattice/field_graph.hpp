@@ -38,6 +38,29 @@ struct GraphLevel {
   }
 };
 
+// The gradient at node i, in its frame, of what rises by rise(j) to its neighbour j: by least squares over the edges,
+// damped by 0.1 % so that edges that hardly span the plane do not make it large; 0 where they do not at all.
+template <class Rise>
+Complex gradient_at(const GraphLevel& level, std::size_t i, const TangentFrame& frame, const Rise& rise) {
+  double xx = 0, xy = 0, yy = 0, bx = 0, by = 0;
+  for (std::uint32_t e = level.first[i]; e < level.first[i + 1]; ++e) {
+    const std::uint32_t j = level.neighbours[e];
+    const Complex d = frame.coordinates(level.positions[j] - level.positions[i]);
+    const double difference = rise(j);
+    const double w = static_cast<double>(level.weights[e]);
+    xx += w * d.real() * d.real();
+    xy += w * d.real() * d.imag();
+    yy += w * d.imag() * d.imag();
+    bx += w * d.real() * difference;
+    by += w * d.imag() * difference;
+  }
+  const double damping = 1e-3 * (xx + yy);
+  xx += damping;
+  yy += damping;
+  const double determinant = xx * yy - xy * xy;
+  return determinant > 0 ? Complex(yy * bx - xy * by, xx * by - xy * bx) / determinant : Complex(0, 0);
+}
+
 struct FieldGraph {
   std::vector<GraphLevel> levels;  // finest first
   std::vector<Vec3> anchors;       // places, by sample

@@ -97,24 +97,8 @@ std::vector<Complex> log_length_gradient(const GraphLevel& level) {
   std::vector<Complex> gradient(level.size());
   for_each_block(level.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
-      const TangentFrame frame(level.normals[i]);
-      double xx = 0, xy = 0, yy = 0, bx = 0, by = 0;
-      for (std::uint32_t e = level.first[i]; e < level.first[i + 1]; ++e) {
-        const std::uint32_t j = level.neighbours[e];
-        const Complex d = frame.coordinates(level.positions[j] - level.positions[i]);
-        const double difference = level.log_length[j] - level.log_length[i];
-        const double w = static_cast<double>(level.weights[e]);
-        xx += w * d.real() * d.real();
-        xy += w * d.real() * d.imag();
-        yy += w * d.imag() * d.imag();
-        bx += w * d.real() * difference;
-        by += w * d.imag() * difference;
-      }
-      const double damping = 1e-3 * (xx + yy);
-      xx += damping;
-      yy += damping;
-      const double determinant = xx * yy - xy * xy;
-      gradient[i] = determinant > 0 ? Complex(yy * bx - xy * by, xx * by - xy * bx) / determinant : Complex(0, 0);
+      gradient[i] = gradient_at(level, i, TangentFrame(level.normals[i]),
+                                [&](std::uint32_t j) { return level.log_length[j] - level.log_length[i]; });
     }
   });
   return gradient;

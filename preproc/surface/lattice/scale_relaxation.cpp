@@ -21,25 +21,11 @@ std::vector<Complex> turning(const GraphLevel& level, const std::vector<Complex>
   for_each_block(level.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       const TangentFrame here(level.normals[i]);
-      double xx = 0, xy = 0, yy = 0, bx = 0, by = 0;
-      for (std::uint32_t e = level.first[i]; e < level.first[i + 1]; ++e) {
-        const std::uint32_t j = level.neighbours[e];
-        const Complex d = here.coordinates(level.positions[j] - level.positions[i]);
+      gradient[i] = gradient_at(level, i, here, [&](std::uint32_t j) {
         const Complex relative =
             directions[j] * transport(TangentFrame(level.normals[j]), here) * std::conj(directions[i]);
-        const double angle = small_angle(sixth_turn(relative).remainder);
-        const double w = static_cast<double>(level.weights[e]);
-        xx += w * d.real() * d.real();
-        xy += w * d.real() * d.imag();
-        yy += w * d.imag() * d.imag();
-        bx += w * d.real() * angle;
-        by += w * d.imag() * angle;
-      }
-      const double damping = 1e-3 * (xx + yy);
-      xx += damping;
-      yy += damping;
-      const double determinant = xx * yy - xy * xy;
-      if (determinant > 0) gradient[i] = Complex(yy * bx - xy * by, xx * by - xy * bx) / determinant;
+        return small_angle(sixth_turn(relative).remainder);
+      });
     }
   });
   return gradient;
