@@ -1,0 +1,93 @@
+// Surfaces that pass through themselves or through each other.
+#include "preproc/surface/repair/repair.hpp"
+#include "quality/self_intersections.hpp"
+#include "quality/validity.hpp"
+#include "tests/analytic_meshes.hpp"
+#include "tests/surfaces_to_repair.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace scan2fea {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(RepairIntersections, CrossingSolidsBecomeOne) {
+  const SurfaceMesh ball = analytic::sphere(1, 4);
+  const double distance = 1.21;
+  SurfaceMesh mesh = analytic::join(ball, moved(ball, {distance, 0.07, 0.03}));
+  const RepairResult result = repair(mesh);
+  expect_sound(mesh);
+  EXPECT_EQ(check_validity(mesh).components, 1u);
+  EXPECT_EQ(result.count(RepairKind::UnitedShell), 2u);
+  // Two balls less the lens that they have in common.
+  const double d = Vec3(distance, 0.07, 0.03).norm();
+  const double lens = std::numbers::pi * (4 + d) * (2 - d) * (2 - d) / 12;
+  EXPECT_NEAR(enclosed_volume(mesh), 2 * enclosed_volume(ball) - lens, 0.01);
+}
+
+TEST(RepairIntersections, BoxesThatTouchAlongFacesBecomeOne) {
+  SurfaceMesh mesh = analytic::join(analytic::box({2, 2, 1}, 1), moved(unit_box(1), {0.5, 0.5, 1}));
+  repair(mesh);
+  expect_sound(mesh);
+  EXPECT_EQ(check_validity(mesh).components, 1u);
+  EXPECT_NEAR(enclosed_volume(mesh), 5, 1e-9);
+}
+
+TEST(RepairIntersections, BoxWithinABoxThatReachesOutIsUnited) {
+  SurfaceMesh mesh = analytic::join(unit_box(3), moved(analytic::box({0.2, 0.2, 2}, 0.2), {0.4, 0.4, -0.5}));
+  repair(mesh);
+  expect_sound(mesh);
+  EXPECT_NEAR(enclosed_volume(mesh), 1 + 0.04, 1e-9);
+}
+
+TEST(RepairIntersections, ASpikeThroughTheFarSideIsCutWhereItIs) {
+  const SurfaceMesh original = analytic::sphere(1, 4);
+  SurfaceMesh mesh = original;
+  const Vec3 place = original.vertices[100];
+  mesh.vertices[100] = -1.2 * place;
+  ASSERT_FALSE(find_self_intersections(mesh).empty());
+  const RepairResult result = repair(mesh);
+  expect_sound(mesh);
+  EXPECT_GT(result.intersecting_pairs, 0u);
+  EXPECT_GT(result.count(RepairKind::Intersection), 0u);
+  EXPECT_NEAR(enclosed_volume(mesh), enclosed_volume(original), 0.02);
+  for (const Vec3& p : original.vertices)
+    if (std::abs(p.dot(place)) < 0.8) {
+      EXPECT_THAT(mesh.vertices, ::testing::Contains(p));
+    }
+}
+
+TEST(RepairIntersections, FoldsOfNoiseAreSmoothedWithoutLosingFaces) {
+  const SurfaceMesh noisy = analytic::noisy(analytic::sphere(1, 4), 0.02, 5);
+  SurfaceMesh mesh = noisy;
+  ASSERT_FALSE(find_self_intersections(mesh).empty());
+  const RepairResult result = repair(mesh);
+  expect_sound(mesh);
+  EXPECT_EQ(mesh.triangles, noisy.triangles);
+  std::size_t moved = 0;
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) moved += mesh.vertices[v] != noisy.vertices[v];
+  EXPECT_EQ(moved, result.count(RepairKind::SmoothedFold));
+  EXPECT_LT(moved, mesh.vertices.size() / 10);
+}
+
+TEST(RepairIntersections, NoisySphereBecomesSound) {
+  for (const double sigma : {0.005, 0.02, 0.05}) {
+    const SurfaceMesh original = analytic::sphere(1, 4);
+    SurfaceMesh mesh = analytic::noisy(original, sigma, 7);
+    repair(mesh);
+    expect_sound(mesh);
+    EXPECT_NEAR(enclosed_volume(mesh), enclosed_volume(original), 0.03 * enclosed_volume(original));
+  }
+}
+
+TEST(RepairIntersections, ASurfaceThatIsOneTangleIsNotMeshable) {
+  EXPECT_THAT(message_of_failure(analytic::noisy(analytic::sphere(1, 3), 0.5, 11)), HasSubstr("intersects"));
+}
+
+}  // namespace
+}  // namespace scan2fea
