@@ -26,6 +26,9 @@ class InsideTest {
   // About O(log n); faster where `hint`, a triangle, is near.
   Answer operator()(const Vec3& p, std::uint32_t hint = 0) const;
 
+  // Of all triangles of the surface.
+  const TriangleTree& tree() const { return tree_; }
+
  private:
   const SurfaceMesh& surface_;
   TriangleTree tree_;

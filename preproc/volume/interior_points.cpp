@@ -2,6 +2,7 @@
 
 #include "preproc/mesh/morton_code.hpp"
 #include "preproc/mesh/splitmix64.hpp"
+#include "quality/wall_thickness.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -167,13 +168,10 @@ double thin_wall_share(const SurfaceMesh& surface, const InsideTest& inside) {
   for (std::size_t i = 0; i < surface.triangles.size(); i += stride) {
     const Triangle& t = surface.triangles[i];
     const Vec3 normal = area_vector(surface, t);
-    const double depth = wall_in_edges / 2 * (of_vertex[t[0]] + of_vertex[t[1]] + of_vertex[t[2]]) / 3;
+    const double edge = (of_vertex[t[0]] + of_vertex[t[1]] + of_vertex[t[2]]) / 3;
     const Vec3 centre = (surface.vertices[t[0]] + surface.vertices[t[1]] + surface.vertices[t[2]]) / 3;
-    const InsideTest::Answer answer = inside(centre - depth * normal.normalized(), static_cast<std::uint32_t>(i));
     all += normal.norm();
-    // The nearest surface half-way into the wall is its other side, not a neighbour around an edge.
-    const Vec3 other = area_vector(surface, surface.triangles[answer.triangle]);
-    if (answer.distance < 0.999 * depth && other.dot(normal) < -0.5 * other.norm() * normal.norm())
+    if (find_wall(surface, inside.tree(), centre, normal.normalized(), {.deepest = wall_in_edges * edge}))
       thin += normal.norm();
   }
   return all > 0 ? thin / all : 0;
