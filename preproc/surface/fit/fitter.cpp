@@ -1,6 +1,7 @@
 #include "preproc/surface/fit/fitter.hpp"
 
 #include "preproc/surface/kernel/nearest.hpp"
+#include "preproc/surface/kernel/rings.hpp"
 
 #include <Eigen/LU>
 #include <tbb/blocked_range.h>
@@ -150,13 +151,7 @@ std::vector<bool> Fitter::vertices_of_interest() const {
   if (options_.constraints.empty()) return std::vector<bool>(mesh_.vertices.size(), true);
   std::vector<bool> of_interest(mesh_.vertices.size());
   for (std::uint32_t v = 0; v < of_interest.size(); ++v) of_interest[v] = is_free(v);
-  for (int ring = 0; ring < 2; ++ring) {
-    std::vector<bool> grown = of_interest;
-    for (const Triangle& t : mesh_.triangles) {
-      if (of_interest[t[0]] || of_interest[t[1]] || of_interest[t[2]]) grown[t[0]] = grown[t[1]] = grown[t[2]] = true;
-    }
-    of_interest = std::move(grown);
-  }
+  grow_vertices(mesh_, of_interest, 2);
   return of_interest;
 }
 

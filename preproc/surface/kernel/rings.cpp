@@ -17,18 +17,22 @@ void grow(const SurfaceMesh& mesh, FaceMarks& marks, int rings) {
   }
 }
 
+void grow_vertices(const SurfaceMesh& mesh, std::vector<bool>& vertices, int rings) {
+  for (int ring = 0; ring < rings; ++ring) {
+    std::vector<bool> grown = vertices;
+    for (const Triangle& t : mesh.triangles) {
+      if (vertices[t[0]] || vertices[t[1]] || vertices[t[2]]) grown[t[0]] = grown[t[1]] = grown[t[2]] = true;
+    }
+    vertices = std::move(grown);
+  }
+}
+
 std::vector<bool> vertices_around(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& faces, int rings) {
   std::vector<bool> inside(mesh.vertices.size(), false);
   for (const std::uint32_t f : faces) {
     for (const std::uint32_t v : mesh.triangles[f]) inside[v] = true;
   }
-  for (int ring = 0; ring < rings; ++ring) {
-    std::vector<bool> grown = inside;
-    for (const Triangle& t : mesh.triangles) {
-      if (inside[t[0]] || inside[t[1]] || inside[t[2]]) grown[t[0]] = grown[t[1]] = grown[t[2]] = true;
-    }
-    inside = std::move(grown);
-  }
+  grow_vertices(mesh, inside, rings);
   return inside;
 }
 
