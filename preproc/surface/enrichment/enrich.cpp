@@ -125,7 +125,8 @@ class Enricher {
 
   // Refused where another point is too near, or where a border edge would have to be split.
   bool insert(SurfacePoint base) {
-    // Close to an edge the point goes onto it: a face of almost no height helps nobody.
+    // Close to an edge the point goes onto it, so that no face of almost no height is made. On a thinned Horse, at 0.01
+    // the smallest angle falls from 3.5 to 0.2 degrees; at 0.2 the mean edge ratio rises from 1.444 to 1.465.
     Eigen::Index corner;
     const bool on_edge = base.weights.minCoeff(&corner) < 0.1;
     const Index edge = 3 * base.face + static_cast<Index>(corner + 1) % 3;
@@ -174,6 +175,8 @@ class Enricher {
     Vec3 mean = Vec3::Zero();
     for (std::size_t i = 0; i < 3; ++i) mean += base.weights[static_cast<int>(i)] * normals_.facing(t[i], face);
     mean.normalize();
+    // More than 72 degrees off, the mean of the corners' normals gives no tangent plane of this face. It seldom is:
+    // with no such test a thinned Horse comes out the same.
     return mean.dot(face) > 0.3 ? mean : face;
   }
 
@@ -216,8 +219,11 @@ class Enricher {
           closest = std::min(closest, farthest);
           return samples_.size() < most_samples && (samples_.size() < wanted_samples || !sectors.surrounded());
         });
-    // Wendland's weight is 0 at the radius, where the farthest sample would not count.
+    // Wendland's weight is 0 at the radius, where the farthest sample would not count; with twice the radius the far
+    // ones count so much that the RMS distance of a thinned Horse grows by 3 %.
     const double height = lifted_height(options_.lifting, samples_, base, normal, 1.2 * farthest);
+    // A height of 0.8 of the way to the nearest sample is a slope of 39 degrees: beyond, it is not credible. On thinned
+    // scans of the Horse and of fandisk, 0.3 changes the RMS distance by -2 and +1 %, 3 by less than 1 %.
     const Vec3 place = base + height * normal;
     if (!(std::abs(height) <= 0.8 * closest) || folds(v, place) || !has_room(seeds, place, normal, v)) {
       ++result_.not_lifted;

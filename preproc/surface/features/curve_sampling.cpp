@@ -9,8 +9,8 @@
 namespace scan2fea {
 namespace {
 
-// All three are over the wanted length h. Long segments have candidates for samples at this distance: half of it is as much as a
-// step can miss h by, and relaxation takes that away.
+// All three are over the wanted length h. Long segments have candidates for samples at this distance: half of it is as
+// much as a step can miss h by, and relaxation takes that away.
 constexpr double piece_of_length = 1.0 / 6;
 // Vertices of fine polylines that are nearer than this to the last candidate are none.
 constexpr double nearest_candidates_of_length = 1.0 / 12;

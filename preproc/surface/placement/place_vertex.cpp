@@ -1,6 +1,5 @@
 #include "preproc/surface/placement/place_vertex.hpp"
 
-#include "preproc/surface/kernel/tangent_frame.hpp"
 #include "preproc/surface/placement/nelder_mead.hpp"
 
 #include <Eigen/Core>
@@ -24,9 +23,14 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 class PlaneCost {
  public:
   PlaneCost(const Star& star, const Vec3& normal, const PlaceVertexOptions& options)
-      : link_(star.link), origin_(star.centre), normal_(normal), frame_(normal), options_(options) {}
+      : link_(star.link), origin_(star.centre), normal_(normal), options_(options) {
+    Eigen::Index smallest;
+    normal.cwiseAbs().minCoeff(&smallest);
+    u_ = normal.cross(Vec3::Unit(smallest)).normalized();
+    v_ = normal.cross(u_);
+  }
 
-  Vec3 point(const Vec2& x) const { return origin_ + x[0] * frame_.x + x[1] * frame_.y; }
+  Vec3 point(const Vec2& x) const { return origin_ + x[0] * u_ + x[1] * v_; }
 
   double operator()(const Vec2& x) const {
     const Star star{point(x), link_};
@@ -44,14 +48,14 @@ class PlaneCost {
       const Vec3& a = link_[i];
       const Vec3& b = link_[(i + 1) % link_.size()];
       const Vec3 w = (a - centre).cross(b - centre);
-      const Vec3 wu = frame_.x.cross(a - b), wv = frame_.y.cross(a - b);
+      const Vec3 wu = u_.cross(a - b), wv = v_.cross(a - b);
       const double area = w.norm();
       const double scale = 1 / (2 * std::numbers::sqrt3 * area);
       const double squares = (a - centre).squaredNorm() + (b - centre).squaredNorm() + (a - b).squaredNorm();
       const double value = std::max(1.0, squares * scale);
 
       const Vec3 to_middle = 2 * (2 * centre - a - b);
-      const Vec2 ds(to_middle.dot(frame_.x), to_middle.dot(frame_.y));
+      const Vec2 ds(to_middle.dot(u_), to_middle.dot(v_));
       const Vec2 da(w.dot(wu) / area, w.dot(wv) / area);
       Mat2 dda;
       dda << wu.dot(wu), wu.dot(wv), wu.dot(wv), wv.dot(wv);
@@ -69,8 +73,7 @@ class PlaneCost {
 
  private:
   std::span<const Vec3> link_;
-  Vec3 origin_, normal_;
-  TangentFrame frame_;
+  Vec3 origin_, normal_, u_, v_;
   const PlaceVertexOptions& options_;
 };
 
