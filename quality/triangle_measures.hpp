@@ -12,6 +12,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <optional>
 
 namespace scan2fea {
@@ -45,8 +46,8 @@ double smallest_angle_deg(const Vec3& a, const Vec3& b, const Vec3& c);
 // if they face outwards. `along`: unit, the edge that they share, as the first one turns; the normals have any length.
 double interior_angle(const Vec3& first_normal, const Vec3& second_normal, const Vec3& along);
 
-// sqrt(3)/4: of a triangle with edges of length 1.
-inline constexpr double equilateral_area = 0.43301270189221932;
+// Of a triangle with edges of length 1.
+inline constexpr double equilateral_area = std::numbers::sqrt3 / 4;
 
 // Of so many equilateral triangles that have this area together.
 inline double equilateral_edge(double area, double triangles) {

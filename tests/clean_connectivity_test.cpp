@@ -2,6 +2,7 @@
 
 #include "preproc/surface/kernel/components.hpp"
 #include "preproc/surface/kernel/halfedge_mesh.hpp"
+#include "quality/triangle_measures.hpp"
 #include "tests/analytic_meshes.hpp"
 
 #include <gtest/gtest.h>
@@ -21,9 +22,8 @@ long irregularity(const SurfaceMesh& mesh) {
 }
 
 std::vector<double> uniform_length(const SurfaceMesh& mesh) {
-  return std::vector<double>(
-      mesh.vertices.size(),
-      std::sqrt(surface_area(mesh) / (std::sqrt(3.0) / 4 * static_cast<double>(mesh.triangles.size()))));
+  return std::vector<double>(mesh.vertices.size(),
+                             equilateral_edge(surface_area(mesh), static_cast<double>(mesh.triangles.size())));
 }
 
 TEST(CleanConnectivity, MendsWhatFlipsHaveBroken) {

@@ -132,7 +132,7 @@ class NoisySphere : public testing::Test {
   static constexpr int levels = 3;
   SurfaceMesh fine = analytic::sphere(1, 5);
   ReferenceSurface scan{fine};
-  double edge = std::sqrt(4 * M_PI * 4 / std::sqrt(3.0) / (20 * std::pow(4, levels)));
+  double edge = equilateral_edge(4 * M_PI, 20 * std::pow(4, levels));
   SurfaceMesh mesh = analytic::noisy(analytic::sphere(1, levels), 0.15 * edge, 1);
 };
 

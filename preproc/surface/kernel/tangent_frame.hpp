@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <complex>
+#include <numbers>
 
 namespace scan2fea {
 
@@ -64,7 +65,7 @@ struct SixthTurn {
 
 // Sector tests instead of an arctangent: the limits are odd multiples of 30°. Precondition: unit.
 inline SixthTurn sixth_turn(const Complex& direction) {
-  constexpr double half = 0.5, height = 0.86602540378443865;  // cosine and sine of 60°
+  constexpr double half = 0.5, height = std::numbers::sqrt3 / 2;  // cosine and sine of 60°
   static constexpr double cosines[6] = {1, half, -half, -1, -half, half};
   static constexpr double sines[6] = {0, height, height, 0, -height, -height};
   const double c = direction.real(), s = direction.imag();

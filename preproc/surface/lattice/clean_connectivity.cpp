@@ -19,7 +19,7 @@ namespace {
 using Index = HalfedgeMesh::Index;
 
 constexpr double largest_turn_cosine = 0.5;  // no step turns a triangle by more than 60 degrees
-constexpr double worst_shape = 0.3;          // no step makes a triangle below this, unless it was worse before
+constexpr double largest_eta = 1 / 0.3;      // no step makes a triangle above this, unless it was worse before
 constexpr double valence_cost = 0.5;         // one unit of irregularity is worth so many edge lengths
 constexpr int flip_passes = 10;              // flips that would go round in a circle end here
 // Edges longer than this times the wanted length are not contracted for their valences. It seldom decides: with 1 or 10
@@ -29,12 +29,6 @@ constexpr double longest_collapse = 1.3;
 // are as good as equal go to and fro. At ten times as much (12 degrees) Delaunay flips are missing, and the mean edge
 // ratio of igea at 8,000 faces is 0.001 higher.
 constexpr double cocircular = 0.02;
-
-// 1 for an equilateral triangle, 0 for one without area: 4 sqrt(3) area / sum of squared edges.
-double shape(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const double squares = (b - a).squaredNorm() + (c - b).squaredNorm() + (a - c).squaredNorm();
-  return squares > 0 ? 2 * std::sqrt(3.0) * (b - a).cross(c - a).norm() / squares : 0.0;
-}
 
 Vec3 normal(const Vec3& a, const Vec3& b, const Vec3& c) {
   return (b - a).cross(c - a);
@@ -213,8 +207,8 @@ class Cleaner {
     }
     const Vec3 old_normal = normal(pa, pb, pc).normalized() + normal(pb, pa, pd).normalized();
     if (turned_too_far(old_normal, normal(pd, pc, pa)) || turned_too_far(old_normal, normal(pc, pd, pb))) return false;
-    const double worst = std::min(shape(pd, pc, pa), shape(pc, pd, pb));
-    if (worst < worst_shape && worst < std::min(shape(pa, pb, pc), shape(pb, pa, pd))) return false;
+    const double worst = std::max(eta(pd, pc, pa), eta(pc, pd, pb));
+    if (worst > largest_eta && worst > std::max(eta(pa, pb, pc), eta(pb, pa, pd))) return false;
     return mesh_.can_flip(h);
   }
 
@@ -251,8 +245,8 @@ class Cleaner {
         const Index p = mesh_.target(out), q = mesh_.origin(HalfedgeMesh::prev(out));
         if (p == other || q == other) return;
         const Vec3 &x = mesh_.points[v], &y = mesh_.points[p], &z = mesh_.points[q];
-        const double after = shape(to, y, z);
-        if (turned_too_far(normal(x, y, z), normal(to, y, z)) || (after < worst_shape && after < shape(x, y, z)))
+        const double after = eta(to, y, z);
+        if (turned_too_far(normal(x, y, z), normal(to, y, z)) || (after > largest_eta && after > eta(x, y, z)))
           sound = false;
       });
       if (!sound) return false;

@@ -1,6 +1,7 @@
 #include "preproc/surface/lattice/lattice_clusters.hpp"
 
 #include "preproc/surface/kernel/parallel_blocks.hpp"
+#include "quality/triangle_measures.hpp"
 
 #include <algorithm>
 #include <array>
@@ -15,7 +16,8 @@ constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 constexpr double farthest_join = 0.6;
 // Clusters of less than this part of a cell are not a lattice point's, but leftovers between such.
 constexpr double smallest_cluster = 0.3;
-constexpr double cell_area = 0.86602540378443865;  // sqrt(3)/2: a cell of a lattice of edge length 1
+// A cell of a lattice of edge length 1: there are two triangles a point.
+constexpr double cell_area = 2 * equilateral_area;
 
 }  // namespace
 

@@ -4,11 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace scan2fea {
 namespace {
 
-constexpr double two_over_sqrt3 = 1.1547005383792515;
+constexpr double two_over_sqrt3 = 2 / std::numbers::sqrt3;
 constexpr double sharpest_fold = 0.5;  // 1 + the cosine of 120°, beyond which normals say nothing about lengths
 
 LatticeNode node(const GraphLevel& level, const std::vector<Complex>& directions, std::size_t i) {
