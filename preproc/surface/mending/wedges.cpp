@@ -258,15 +258,87 @@ double smallest_angle_around(const SurfaceMesh& mesh, std::uint32_t v, const Ver
   return least;
 }
 
-// Moved vertices in groups that share no triangle, each known by its first vertex.
-UnionFind group(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& moved) {
-  std::vector<bool> is_moved(mesh.vertices.size(), false);
-  for (const std::uint32_t v : moved) is_moved[v] = true;
-  UnionFind groups(mesh.vertices.size());
-  for (const Triangle& t : mesh.triangles)
-    for (std::size_t k = 0; k < 3; ++k)
-      if (is_moved[t[k]] && is_moved[t[(k + 1) % 3]]) groups.unite(t[k], t[(k + 1) % 3]);
-  return groups;
+// The moved vertices in groups that share no triangle, so that one that comes to harm goes back without the others.
+class MovedGroups {
+ public:
+  MovedGroups(SurfaceMesh& mesh, const Opening& opening)
+      : mesh_(mesh), opening_(opening), group_(mesh.vertices.size()), undone_(mesh.vertices.size(), false) {
+    std::vector<bool> is_moved(mesh.vertices.size(), false);
+    for (const std::uint32_t v : opening.moved()) is_moved[v] = true;
+    UnionFind groups(mesh.vertices.size());
+    for (const Triangle& t : mesh.triangles)
+      for (std::size_t k = 0; k < 3; ++k)
+        if (is_moved[t[k]] && is_moved[t[(k + 1) % 3]]) groups.unite(t[k], t[(k + 1) % 3]);
+    for (std::uint32_t v = 0; v < group_.size(); ++v) group_[v] = groups.find(v);
+  }
+
+  // Of the triangles around each group.
+  std::vector<double> least_angles_deg() const {
+    std::vector<double> least(mesh_.vertices.size(), 180);
+    for (const std::uint32_t v : opening_.moved())
+      least[group_[v]] = std::min(least[group_[v]], smallest_angle_around(mesh_, v, opening_.stars()));
+    return least;
+  }
+
+  // Those whose least angle fell below the limit, or was below it and fell.
+  void undo_narrowed(const std::vector<double>& before, double limit_deg) {
+    const std::vector<double> after = least_angles_deg();
+    for (const std::uint32_t v : opening_.moved())
+      if (const std::uint32_t g = group_[v]; after[g] < std::min(limit_deg, before[g])) undone_[g] = true;
+    put_back();
+  }
+
+  void undo_crossing() {
+    std::vector<std::uint32_t> touched;
+    for (const std::uint32_t v : opening_.moved())
+      for (const std::uint32_t corner : opening_.stars().corners(v)) touched.push_back(corner / 3);
+    std::sort(touched.begin(), touched.end());
+    touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+    for (bool clear = false; !clear;) {
+      clear = true;
+      for (const FacePair& pair : find_self_intersections(mesh_, touched))
+        for (const std::uint32_t f : {pair.face, pair.other})
+          for (const std::uint32_t v : mesh_.triangles[f]) {
+            if (undone_[group_[v]]) continue;
+            undone_[group_[v]] = true;
+            clear = false;
+          }
+      put_back();
+    }
+  }
+
+ private:
+  void put_back() {
+    for (std::size_t i = 0; i < opening_.moved().size(); ++i)
+      if (const std::uint32_t v = opening_.moved()[i]; undone_[group_[v]]) mesh_.vertices[v] = opening_.given()[i];
+  }
+
+  SurfaceMesh& mesh_;
+  const Opening& opening_;
+  std::vector<std::uint32_t> group_;  // of each vertex, known by one of its vertices
+  std::vector<bool> undone_;          // by group
+};
+
+// An edge whose ends are held is as sharp as it is meant to be.
+std::vector<Wedge> find_free_wedges(const SurfaceMesh& mesh, const ReferenceSurface& scan,
+                                    const WedgeOptions& options) {
+  std::vector<Wedge> wedges = find_wedges(mesh, scan, options.least_dihedral_deg);
+  if (options.constraints.empty()) return wedges;
+  const auto is_fixed = [&](const Wedge& w, std::uint32_t k) {
+    return options.constraints[mesh.triangles[w.face][(w.side + k) % 3]] == VertexConstraint::fixed;
+  };
+  std::erase_if(wedges, [&](const Wedge& w) { return is_fixed(w, 1) && is_fixed(w, 2); });
+  return wedges;
+}
+
+void count_left(const SurfaceMesh& mesh, const ReferenceSurface& scan, const std::vector<NearPair>& near,
+                const WedgeOptions& options, WedgeResult& result) {
+  const std::vector<Wedge> left = find_wedges(mesh, scan, options.least_dihedral_deg);
+  result.after = lacking(left);
+  for (const NearPair& pair : near)
+    if ((mesh.vertices[pair.vertex] - mesh.vertices[pair.other]).norm() < pair.wanted) ++result.after;
+  for (const Wedge& w : left)
+    if (w.lacks()) result.sharpest_deg = std::min(result.sharpest_deg, w.angle_deg);
 }
 
 }  // namespace
@@ -300,67 +372,26 @@ std::vector<Wedge> find_wedges(const SurfaceMesh& mesh, const ReferenceSurface& 
 }
 
 WedgeResult open_wedges(SurfaceMesh& mesh, const ReferenceSurface& scan, const WedgeOptions& options) {
-  std::vector<Wedge> wedges = find_wedges(mesh, scan, options.least_dihedral_deg);
-  // An edge whose ends are held is as sharp as it is meant to be.
-  const auto is_fixed = [&](const Wedge& w, std::uint32_t k) {
-    return options.constraints[mesh.triangles[w.face][(w.side + k) % 3]] == VertexConstraint::fixed;
-  };
-  if (!options.constraints.empty())
-    std::erase_if(wedges, [&](const Wedge& w) { return is_fixed(w, 1) && is_fixed(w, 2); });
-  WedgeResult result;
+  const std::vector<Wedge> wedges = find_free_wedges(mesh, scan, options);
   std::vector<NearPair> near = find_near_pairs(mesh, VertexStars(mesh), options);
   // Where many are near, the body is a thin wall, and must be.
   if (static_cast<double>(lacking(near)) > most_near * static_cast<double>(mesh.vertices.size())) near.clear();
+  WedgeResult result;
   result.before = result.after = lacking(wedges) + lacking(near);
   if (result.before == 0) return result;
 
   const SurfaceMesh whole = mesh;
   Opening opening(mesh, wedges, near, options);
-  const std::vector<std::uint32_t>& moved = opening.moved();
-  UnionFind groups = group(mesh, moved);
-  std::vector<double> least_before(mesh.vertices.size(), 180), least_after = least_before;
-  const auto measure = [&](std::vector<double>& least) {
-    for (const std::uint32_t v : moved) {
-      double& of_group = least[groups.find(v)];
-      of_group = std::min(of_group, smallest_angle_around(mesh, v, opening.stars()));
-    }
-  };
-  measure(least_before);
+  MovedGroups groups(mesh, opening);
+  const std::vector<double> least_before = groups.least_angles_deg();
   opening.run();
-  measure(least_after);
-
-  std::vector<bool> undone(mesh.vertices.size(), false);  // by group
-  for (const std::uint32_t v : moved) {
-    const std::uint32_t g = groups.find(v);
-    if (least_after[g] < std::min(options.least_angle_deg, least_before[g])) undone[g] = true;
-  }
-  std::vector<std::uint32_t> touched;
-  for (const std::uint32_t v : moved)
-    for (const std::uint32_t corner : opening.stars().corners(v)) touched.push_back(corner / 3);
-  std::sort(touched.begin(), touched.end());
-  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
-  for (bool clear = false; !clear;) {
-    for (const std::uint32_t v : moved)
-      if (undone[groups.find(v)]) mesh.vertices[v] = whole.vertices[v];
-    clear = true;
-    for (const FacePair& pair : find_self_intersections(mesh, touched))
-      for (const std::uint32_t f : {pair.face, pair.other})
-        for (const std::uint32_t v : mesh.triangles[f]) {
-          if (undone[groups.find(v)]) continue;
-          undone[groups.find(v)] = true;
-          clear = false;
-        }
-  }
+  groups.undo_narrowed(least_before, options.least_angle_deg);
+  groups.undo_crossing();
   if (mesh.vertices != whole.vertices && options.keep_volume) {
     preserve_volume(mesh, scan.whole, options.constraints);
     if (!find_self_intersections(mesh).empty()) mesh = whole;
   }
-  const std::vector<Wedge> left = find_wedges(mesh, scan, options.least_dihedral_deg);
-  result.after = lacking(left);
-  for (const NearPair& pair : near)
-    if ((mesh.vertices[pair.vertex] - mesh.vertices[pair.other]).norm() < pair.wanted) ++result.after;
-  for (const Wedge& w : left)
-    if (w.lacks()) result.sharpest_deg = std::min(result.sharpest_deg, w.angle_deg);
+  count_left(mesh, scan, near, options, result);
   return result;
 }
 
