@@ -102,7 +102,8 @@ void mend(SurfaceMesh& mesh, FeatureNet& net, const ReferenceSurface& scan, cons
   }
   // Vertices on lines may slide, and edges that end on a line flip. Each round allows half as
   // much distance again, 26 times as much in the eighth and last, which is near where the growth ends: what little
-  // weight on shape mends stays close to the scan.
+  // weight on shape mends stays close to the scan. At 1.2 or 2.5 instead of 1.5 fandisk at 8,000 faces is 0.080 or
+  // 0.097 % of the diagonal from its scan at most, instead of 0.089.
   refit(mesh, net, scan, net.empty() ? movable : region,
         std::min(options.loosest_fidelity_of_diagonal, options.fidelity_of_diagonal * std::pow(1.5, round + 1)),
         nearest_to_scan);

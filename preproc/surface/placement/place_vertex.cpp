@@ -24,6 +24,8 @@ class PlaneCost {
  public:
   PlaneCost(const Star& star, const Vec3& normal, const PlaceVertexOptions& options)
       : link_(star.link), origin_(star.centre), normal_(normal), options_(options) {
+    // Not a TangentFrame: Nelder and Mead's search depends on the axes, and the figures of the literal entropies, which
+    // have many local optima, were taken with these.
     Eigen::Index smallest;
     normal.cwiseAbs().minCoeff(&smallest);
     u_ = normal.cross(Vec3::Unit(smallest)).normalized();
