@@ -122,8 +122,8 @@ std::size_t flip_worst(SurfaceMesh& mesh, const ReferenceSurface& scan, const st
       return std::min(signed_quality(mesh, faces[0], scan.vertex_normals[near[flip.faces[0]]]),
                       signed_quality(mesh, faces[1], scan.vertex_normals[near[flip.faces[1]]]));
     };
-    // For less than 0.05 an edge would flip to and fro, with the fits between the flips. It seldom decides: 0 and 0.3 give
-    // the same Horse, igea and fandisk at 8,000 faces.
+    // For less than 0.05 an edge would flip to and fro, with the fits between the flips. It seldom decides: 0 and 0.3
+    // give the same Horse, igea and fandisk at 8,000 faces.
     return worse_quality(flip.after) > worse_quality(flip.before) + 0.05;
   });
 }
