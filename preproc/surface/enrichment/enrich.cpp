@@ -7,11 +7,11 @@
 #include "preproc/surface/kernel/delaunay_flips.hpp"
 #include "preproc/surface/kernel/halfedge_mesh.hpp"
 #include "preproc/surface/placement/place_vertex.hpp"
+#include "quality/triangle_measures.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -69,7 +69,7 @@ class Enricher {
     radius_ = options.sampling_radius ? *options.sampling_radius : default_radius(surface_area(mesh));
     requests_.assign(mesh_.vertex_slots(), 0);
     if (radius_ > 0) {
-      const double packed = std::numbers::sqrt3 / 2 * separation * separation * radius_ * radius_;
+      const double packed = 2 * equilateral_area * separation * separation * radius_ * radius_;  // of each point
       const double bound = std::min(2 * surface_area(mesh) / packed + 100, 1e9);
       most_new_vertices_ = std::min(options.most_new_vertices, static_cast<std::size_t>(bound));
     }
@@ -112,7 +112,7 @@ class Enricher {
   // points spread evenly, in equilateral triangles, would have the other spacing.
   double default_radius(double area) {
     const auto points = static_cast<double>(std::max<std::size_t>(1, original_count_));
-    return std::max(1.5 * importance_.median_spacing(domain_), std::sqrt(2 / std::numbers::sqrt3 * area / points));
+    return std::max(1.5 * importance_.median_spacing(domain_), equilateral_edge(area, 2 * points));
   }
 
   bool fill_one_of(Index v, const std::vector<Vec3>& bisectors) {

@@ -4,10 +4,9 @@
 #include "preproc/mesh/surface_mesh.hpp"
 #include "preproc/surface/features/feature_scan.hpp"
 #include "preproc/surface/kernel/adjacency.hpp"
+#include "quality/triangle_measures.hpp"
 
-#include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <vector>
 
 namespace scan2fea {
@@ -31,9 +30,7 @@ struct ReferenceSurface {
   double area = 0;
 
   // Of a result with so many triangles.
-  double mean_edge(std::size_t triangles) const {
-    return std::sqrt(4 / std::numbers::sqrt3 * area / static_cast<double>(triangles));
-  }
+  double mean_edge(std::size_t triangles) const { return equilateral_edge(area, static_cast<double>(triangles)); }
 
  private:
   ReferenceSurface(const SurfaceMesh& cut, const SurfaceMesh& scan);

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace scan2fea {
 namespace {
@@ -56,8 +55,7 @@ std::vector<std::uint32_t> scan_vertices_of_faces(const SurfaceMesh& mesh, const
 
 SurfaceDefects find_defects(const SurfaceMesh& mesh, const ReferenceSurface& scan,
                             const std::vector<std::uint32_t>& near, double least_angle_deg) {
-  const double edge =
-      std::sqrt(4 / std::numbers::sqrt3 * surface_area(mesh) / static_cast<double>(mesh.triangles.size()));
+  const double edge = equilateral_edge(surface_area(mesh), static_cast<double>(mesh.triangles.size()));
   SurfaceDefects defects;
   defects.crossings = find_self_intersections(mesh);
   for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {

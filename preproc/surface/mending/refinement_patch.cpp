@@ -2,12 +2,11 @@
 
 #include "preproc/surface/kernel/delaunay_flips.hpp"
 #include "preproc/surface/kernel/halfedge_mesh.hpp"
+#include "quality/triangle_measures.hpp"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <optional>
 
 namespace scan2fea {
@@ -194,8 +193,7 @@ RefinementPatch::RefinementPatch(const SurfaceMesh& mesh, const VertexStars& sta
     }
   } while (inside.close());
   lines_ = lines_within(patch_, outline_.vertices, lines);
-  outline_.edge =
-      std::sqrt(4 / std::numbers::sqrt3 * surface_area(patch_) / static_cast<double>(outline_.faces.size()));
+  outline_.edge = equilateral_edge(surface_area(patch_), static_cast<double>(outline_.faces.size()));
   // The scan is as far away as the place deviates, so the box must reach that far; a tenth more and 0.3 of an edge
   // leave the vertices room to move outwards. A larger box makes the search for what is in it slower and lets fewer
   // patches be improved at once; from 0 to 1 edge the Horse's mean edge ratio and RMS distance stay within half a per

@@ -117,8 +117,7 @@ std::vector<NearPair> find_near_pairs(const SurfaceMesh& mesh, const VertexStars
   const std::vector<Vec3> normals = vertex_normals(mesh);
   std::vector<Vec3> opposite;
   for (const Vec3& n : normals) opposite.push_back(-n);
-  const double edge =
-      std::sqrt(4 / std::numbers::sqrt3 * surface_area(mesh) / static_cast<double>(mesh.triangles.size()));
+  const double edge = equilateral_edge(surface_area(mesh), static_cast<double>(mesh.triangles.size()));
   const std::vector<std::uint32_t> nearest = nearest_vertices(mesh.vertices, opposite, mesh, edge);
   std::vector<NearPair> pairs;
   for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
