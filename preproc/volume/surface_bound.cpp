@@ -125,7 +125,11 @@ std::optional<double> meets(const Vec3& from, const Vec3& way, const Vec3& a, co
   return at;
 }
 
-// The walls of the body behind its triangles.
+// The walls of the body behind its triangles. Not by the ball of quality/wall_thickness.hpp, since what is reported as
+// a bound must be one. An element that has an angle along all three sides of a triangle reaches straight in from each
+// point of it by the tangent of that angle times the way to the nearest side: where this way leaves the body, whatever
+// it meets there, no such element fits. A ball may be stopped beside that way, where an element still fits, and finds
+// nothing where the other side does not face the triangle.
 class Walls {
  public:
   explicit Walls(const SurfaceMesh& surface) : surface_(surface), tree_(surface) {}
