@@ -1,5 +1,7 @@
 #include "export/gmsh_module.hpp"
 
+#include "export/gmsh_elements.hpp"
+
 #include <gmsh.h>
 
 #include <array>
@@ -10,15 +12,6 @@
 
 namespace scan2fea {
 namespace {
-
-// Gmsh's element types.
-constexpr int triangle_3 = 2;
-constexpr int tetrahedron_4 = 4;
-constexpr int triangle_6 = 9;
-constexpr int tetrahedron_10 = 11;
-
-// Position in our order of each of Gmsh's mid-edge nodes: the last two are swapped.
-constexpr std::array<std::size_t, 6> gmsh_mid_edges{0, 1, 2, 3, 5, 4};
 
 // Gmsh from initialize to finalize; one at a time, since its state is global.
 class GmshSession {
@@ -129,10 +122,10 @@ void build_model(const TetMesh& mesh, MshVersion version) {
   const std::size_t tetrahedra = mesh.tetrahedra.size();
   std::vector<std::size_t> triangle_tags(mesh.boundary.size());
   std::iota(triangle_tags.begin(), triangle_tags.end(), tetrahedra + 1);
-  gmsh::model::mesh::addElementsByType(volume, mesh.order() == 2 ? tetrahedron_10 : tetrahedron_4, tags(tetrahedra),
-                                       tetrahedron_nodes(mesh));
+  gmsh::model::mesh::addElementsByType(volume, mesh.order() == 2 ? gmsh_tetrahedron_10 : gmsh_tetrahedron_4,
+                                       tags(tetrahedra), tetrahedron_nodes(mesh));
   if (!triangles.empty())
-    gmsh::model::mesh::addElementsByType(surface, mesh.order() == 2 ? triangle_6 : triangle_3, triangle_tags,
+    gmsh::model::mesh::addElementsByType(surface, mesh.order() == 2 ? gmsh_triangle_6 : gmsh_triangle_3, triangle_tags,
                                          triangles);
   gmsh::model::setPhysicalName(2, gmsh::model::addPhysicalGroup(2, {surface}), "SALL");
   gmsh::model::setPhysicalName(3, gmsh::model::addPhysicalGroup(3, {volume}), "EALL");

@@ -1,3 +1,4 @@
+#include "export/gmsh_elements.hpp"
 #include "export/msh.hpp"
 #include "export/raw_mesh.hpp"
 #include "preproc/mesh/byte_order.hpp"
@@ -14,19 +15,14 @@
 namespace scan2fea {
 namespace {
 
-// Gmsh's element types, which a file tells by number. Solids other than tetrahedra of order 1 and 2 are not listed.
+// How many nodes each of Gmsh's element types has. Solids other than tetrahedra of order 1 and 2 are not listed.
 struct ElementType {
   std::int64_t number;
   int nodes;
 };
-constexpr std::int64_t tetrahedron_4 = 4;
-constexpr std::int64_t tetrahedron_10 = 11;
 constexpr std::array<ElementType, 21> element_types{
     {{1, 2},   {2, 3},   {3, 4},   {4, 4},   {8, 3},   {9, 6},  {10, 9}, {11, 10}, {15, 1},  {16, 8}, {20, 9},
      {21, 10}, {22, 12}, {23, 15}, {24, 15}, {25, 21}, {26, 4}, {27, 5}, {28, 6},  {36, 16}, {37, 25}}};
-
-// Position in our order of each of Gmsh's mid-edge nodes: the last two are swapped.
-constexpr std::array<std::size_t, 6> gmsh_mid_edges{0, 1, 2, 3, 5, 4};
 
 // Numbers of a section, as text or as bytes.
 class Numbers {
@@ -217,8 +213,8 @@ class Reader {
       in_.fail("element is not a tetrahedron of first or second order", "Gmsh type " + std::to_string(type));
     std::array<std::uint64_t, 25> nodes{};
     for (int k = 0; k < known->nodes; ++k) nodes[static_cast<std::size_t>(k)] = read_node_number();
-    if (type != tetrahedron_4 && type != tetrahedron_10) return;
-    const bool quadratic = type == tetrahedron_10;
+    if (type != gmsh_tetrahedron_4 && type != gmsh_tetrahedron_10) return;
+    const bool quadratic = type == gmsh_tetrahedron_10;
     if (!raw_.corners.empty() && quadratic == raw_.mid_edges.empty())
       in_.fail("tetrahedra of first and of second order in one mesh");
     raw_.corners.insert(raw_.corners.end(), nodes.begin(), nodes.begin() + 4);

@@ -33,7 +33,7 @@ class TextOutput {
   }
 
  private:
-  static constexpr std::size_t capacity = 1 << 20;
+  static constexpr std::size_t capacity = 1 << 20;  // bytes; what the stream is handed at a time
 
   void flush() {
     stream_.write(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));

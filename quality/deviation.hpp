@@ -29,7 +29,7 @@ struct Deviation {
   double rms_pct_diagonal = 0;         // the larger of the two sides
   double hausdorff = 0;                // model units
   Vec3 farthest_point = Vec3::Zero();  // the sample that is farthest from the other surface
-  Vec3 nearest_to_farthest = Vec3::Zero();  // and the other surface's point nearest to it
+  Vec3 nearest_to_farthest = Vec3::Zero();  // the other surface's point nearest to that one
   bool farthest_is_on_reference = false;    // which surface the farthest sample is a point of
 };
 

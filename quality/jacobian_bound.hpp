@@ -19,7 +19,7 @@ CurvedTetrahedron curved_tetrahedron(const TetMesh& mesh, std::size_t tetrahedro
 
 struct JacobianBound {
   double lower;  // the Jacobian is nowhere less
-  double upper;  // and somewhere not more than this
+  double upper;  // and somewhere at most this
 };
 
 // Bounds on the smallest Jacobian over the element, in model units cubed (six times the volume where the edges are

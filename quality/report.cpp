@@ -79,7 +79,7 @@ std::string text(const Json& value, const char* format = "%.4f") {
 }
 
 std::string row(const std::string& name, const std::string& figures) {
-  constexpr std::size_t column = 22;
+  constexpr std::size_t column = 22;  // names have 18 characters at most, but those of sets
   return "  " + name + std::string(name.size() < column ? column - name.size() : 1, ' ') + figures + "\n";
 }
 

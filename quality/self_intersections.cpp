@@ -157,7 +157,7 @@ std::vector<FacePair> find_pairs(const SurfaceMesh& mesh, std::span<const std::u
   const TriangleTree tree(mesh, solid);
 
   // Fixed blocks, gathered in their order: the same result for any number of threads.
-  constexpr std::size_t block_size = 512;
+  constexpr std::size_t block_size = 512;  // enough faces that handing one out costs nothing beside it
   std::vector<std::vector<FacePair>> found((mesh.triangles.size() + block_size - 1) / block_size);
   tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t block) {
     const std::size_t end = std::min(mesh.triangles.size(), (block + 1) * block_size);
@@ -228,7 +228,7 @@ std::vector<FacePair> find_self_intersections(const SurfaceMesh& mesh) {
                     [&](std::size_t f) { is_flat[f] = is_collinear(mesh.vertices, mesh.triangles[f]); });
 
   // Fixed runs of blocks, gathered in their order: the same result for any number of threads.
-  constexpr std::size_t run_length = 64;
+  constexpr std::size_t run_length = 64;  // as many faces as above
   std::vector<std::vector<FacePair>> found((blocks.count() + run_length - 1) / run_length);
   tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t run) {
     const std::size_t end = std::min(blocks.count(), (run + 1) * run_length);

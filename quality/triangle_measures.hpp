@@ -24,7 +24,7 @@ struct TriangleShape {
   double radius_ratio;  // 2 * inscribed radius / circumscribed radius: 1 for equilateral, 0 for zero area
 };
 
-// Longest edge over shortest edge, the paper's AR. Infinite where two corners coincide; 2 at most for a flat triangle
+// Longest edge over shortest edge: AR of [1], sections 2 and 3. Infinite where two corners coincide; 2 at most for a flat triangle
 // with its apex in the middle, so that it does not bar degenerate triangles.
 double edge_ratio(const Vec3& a, const Vec3& b, const Vec3& c);
 

@@ -238,6 +238,11 @@ SurfaceMesh join(const SurfaceMesh& a, const SurfaceMesh& b) {
   return both;
 }
 
+SurfaceMesh moved(SurfaceMesh mesh, const Vec3& by) {
+  for (Vec3& v : mesh.vertices) v += by;
+  return mesh;
+}
+
 SurfaceMesh reversed(SurfaceMesh mesh) {
   for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
   return mesh;

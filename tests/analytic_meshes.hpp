@@ -40,6 +40,9 @@ SurfaceMesh slab_with_holes(int genus, double edge_length);
 // Both surfaces in one mesh, vertices of `b` after those of `a`.
 SurfaceMesh join(const SurfaceMesh& a, const SurfaceMesh& b);
 
+// The same surface elsewhere.
+SurfaceMesh moved(SurfaceMesh mesh, const Vec3& by);
+
 // The same surface, inside out.
 SurfaceMesh reversed(SurfaceMesh mesh);
 

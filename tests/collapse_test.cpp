@@ -43,13 +43,6 @@ std::vector<Shape> shapes() {
       {"slab of genus 5", analytic::slab_with_holes(5, 0.2), 1, 5}};
 }
 
-double mean_edge_ratio(const SurfaceMesh& mesh) {
-  double sum = 0;
-  for (const Triangle& t : mesh.triangles)
-    sum += edge_ratio(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
-  return sum / static_cast<double>(mesh.triangles.size());
-}
-
 double farthest(const SurfaceMesh& from, const SurfaceMesh& to) {
   const TriangleTree tree(to);
   double worst = 0;
@@ -147,7 +140,7 @@ TEST(Collapse, EntropyWeightedPlacementMakesBetterTrianglesThanMidpoints) {
     CollapseOptions options = to_faces(mesh, 1200);
     options.objective = objective;
     collapse(mesh, options);
-    return mean_edge_ratio(mesh);
+    return measure_triangles(mesh).edge_ratio.mean;
   };
   const double phi = with(StarObjective::entropy_weighted);
   EXPECT_LT(phi, with(std::nullopt));

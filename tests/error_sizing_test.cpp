@@ -1,6 +1,6 @@
 #include "preproc/surface/simplification/error_sizing.hpp"
 
-#include "analytic_meshes.hpp"
+#include "tests/analytic_meshes.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,6 +3,7 @@
 #include "preproc/mesh/error.hpp"
 #include "preproc/surface/features/match_features.hpp"
 #include "tests/analytic_meshes.hpp"
+#include "tests/error_from.hpp"
 #include "tests/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
@@ -12,17 +13,6 @@ namespace scan2fea {
 namespace {
 
 using ::testing::HasSubstr;
-
-template <class Work>
-std::string message_of(Work work) {
-  try {
-    work();
-  } catch (const InvalidInput& error) {
-    return error.what();
-  }
-  ADD_FAILURE() << "expected InvalidInput";
-  return {};
-}
 
 TEST(FeatureFile, EdgesOfAScanComeBackAsThemselves) {
   const TemporaryFolder folder;
@@ -54,7 +44,8 @@ TEST(FeatureFile, NoLinesAreNoFeatures) {
 TEST(FeatureFile, BrokenLinesAreNamed) {
   const TemporaryFolder folder;
   const auto read = [&](const char* text) {
-    return message_of([&] { read_feature_lines(write_text(folder / "bad.obj", text)); });
+    return std::string(
+        error_from<InvalidInput>([&] { read_feature_lines(write_text(folder / "bad.obj", text)); }).what());
   };
   EXPECT_THAT(read("v 0 0 0\nv 1 0 0\nl 1 3\n"), HasSubstr("bad.obj:3"));
   EXPECT_THAT(read("v 0 0 0\nv 1 0 0\nl 1\n"), HasSubstr("too few points"));
@@ -72,14 +63,14 @@ TEST(MatchFeatures, ALongLineIsFollowedAlongItsEdge) {
 
 TEST(MatchFeatures, ALineBesideTheScanIsAnError) {
   const SurfaceMesh box = analytic::box({4, 3, 2}, 0.25);
-  EXPECT_THAT(message_of([&] {
+  EXPECT_THAT(error_from<InvalidInput>([&] {
                 match_features(box, VertexStars(box), {{Vec3(0, 0, 0), Vec3(4, 0, 0.1)}, {{0, 1}}});
-              }),
+              }).what(),
               HasSubstr("(4, 0, 0.1)"));
   // Both ends are corners, but the way between them is the box's inside.
-  EXPECT_THAT(message_of([&] {
+  EXPECT_THAT(error_from<InvalidInput>([&] {
                 match_features(box, VertexStars(box), {{Vec3(0, 0, 0), Vec3(4, 3, 2)}, {{0, 1}}});
-              }),
+              }).what(),
               HasSubstr("(2, 1.5, 1)"));
 }
 

@@ -1,6 +1,7 @@
 #include "export/formats.hpp"
 
 #include "preproc/mesh/error.hpp"
+#include "tests/error_from.hpp"
 #include "tests/structured_tets.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -32,12 +33,8 @@ TEST(Formats, AllCarryTheSameMesh) {
 TEST(Formats, AnUnknownExtensionIsWrongUsageThatListsTheKnown) {
   const TemporaryFolder folder;
   const TetMesh mesh = analytic::tetrahedra_of_box({1, 1, 1}, {1, 1, 1}, 1);
-  try {
-    write_volume(mesh, folder / "box.xyz");
-    FAIL();
-  } catch (const WrongUsage& error) {
-    EXPECT_THAT(error.what(), ::testing::HasSubstr(".inp (Abaqus, CalculiX)"));
-  }
+  EXPECT_THAT(error_from<WrongUsage>([&] { write_volume(mesh, folder / "box.xyz"); }).what(),
+              ::testing::HasSubstr(".inp (Abaqus, CalculiX)"));
   EXPECT_THROW(read_volume(folder / "box.xyz"), WrongUsage);
 }
 

@@ -2,6 +2,7 @@
 
 #include "preproc/mesh/error.hpp"
 #include "tests/analytic_meshes.hpp"
+#include "tests/error_from.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,6 +10,8 @@
 
 namespace scan2fea {
 namespace {
+
+using testing::HasSubstr;
 
 Json report_of(const SurfaceMesh& mesh) {
   Report report;
@@ -62,33 +65,21 @@ TEST(Gates, YesAndNo) {
 }
 
 TEST(Gates, AnUnknownNameIsAnsweredByTheNearest) {
-  try {
-    parse_gate("edge_rato.mean<=1.2");
-    FAIL();
-  } catch (const WrongUsage& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("surface.edge_ratio.mean"));
-    EXPECT_EQ(error.parts().value, "edge_rato.mean");
-  }
+  const auto error = error_from<WrongUsage>([] { parse_gate("edge_rato.mean<=1.2"); });
+  EXPECT_THAT(error.what(), HasSubstr("surface.edge_ratio.mean"));
+  EXPECT_EQ(error.parts().value, "edge_rato.mean");
   EXPECT_THROW(parse_gate("surface.edge_ratio<=1.2"), WrongUsage);
 }
 
 TEST(Gates, AnAmbiguousNameIsRefused) {
-  try {
-    parse_gate("volume>0");
-    FAIL();
-  } catch (const WrongUsage& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("surface.volume or volume_mesh.volume"));
-  }
+  EXPECT_THAT(error_from<WrongUsage>([] { parse_gate("volume>0"); }).what(),
+              HasSubstr("surface.volume or volume_mesh.volume"));
 }
 
 TEST(Gates, ANameThatIsAGroupElsewhereIsAmbiguous) {
   EXPECT_EQ(parse_gate("volume_mesh.edge_ratio<=3").name, "volume_mesh.edge_ratio");
-  try {
-    parse_gate("edge_ratio<=1.2");
-    FAIL();
-  } catch (const WrongUsage& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("surface.edge_ratio.mean"));
-  }
+  EXPECT_THAT(error_from<WrongUsage>([] { parse_gate("edge_ratio<=1.2"); }).what(),
+              HasSubstr("surface.edge_ratio.mean"));
 }
 
 TEST(Gates, WhatIsNoGateIsRefused) {
@@ -100,12 +91,8 @@ TEST(Gates, WhatIsNoGateIsRefused) {
 
 TEST(Gates, AMissingFigureIsNeverPassed) {
   const Json without_reference = report_of(analytic::sphere(1, 1));
-  try {
-    passes("rms_pct_diagonal<=1", without_reference);
-    FAIL();
-  } catch (const WrongUsage& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("--reference"));
-  }
+  EXPECT_THAT(error_from<WrongUsage>([&] { passes("rms_pct_diagonal<=1", without_reference); }).what(),
+              HasSubstr("--reference"));
   EXPECT_THROW(passes("scaled_jacobian.min>=0", without_reference), WrongUsage);
 
   SurfaceMesh open = analytic::sphere(1, 1);

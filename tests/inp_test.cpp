@@ -2,6 +2,7 @@
 
 #include "export/smallest_determinant.hpp"
 #include "preproc/mesh/error.hpp"
+#include "tests/error_from.hpp"
 #include "tests/structured_tets.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -149,12 +150,7 @@ TEST(InpReader, SaysWhereAFileIsWrong) {
   const std::string nodes = "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n";
   const auto message = [&](const std::string& text) -> std::string {
     write_text(folder / "bad.inp", text);
-    try {
-      read_inp(folder / "bad.inp");
-    } catch (const InvalidInput& error) {
-      return error.what();
-    }
-    return "no error";
+    return error_from<InvalidInput>([&] { read_inp(folder / "bad.inp"); }).what();
   };
   EXPECT_THAT(message(""), HasSubstr("empty"));
   EXPECT_THAT(message("solid part\n"), HasSubstr("holds no tetrahedra"));

@@ -1,11 +1,11 @@
 #include "preproc/surface/mending/local_refinement.hpp"
 
-#include "analytic_meshes.hpp"
 #include "preproc/mesh/error.hpp"
 #include "preproc/surface/features/feature_net.hpp"
 #include "quality/deviation_bound.hpp"
 #include "quality/self_intersections.hpp"
 #include "quality/validity.hpp"
+#include "tests/analytic_meshes.hpp"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

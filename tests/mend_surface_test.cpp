@@ -1,10 +1,10 @@
 #include "preproc/surface/mending/mend_surface.hpp"
 
-#include "analytic_meshes.hpp"
 #include "preproc/mesh/error.hpp"
 #include "preproc/surface/features/find_features.hpp"
 #include "preproc/surface/mending/local_moves.hpp"
 #include "quality/triangle_measures.hpp"
+#include "tests/analytic_meshes.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
 #include "preproc/mesh/output_file.hpp"
 
 #include "preproc/mesh/error.hpp"
+#include "tests/error_from.hpp"
 #include "tests/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
@@ -101,13 +102,9 @@ TEST(OutputFile, WritesThroughALink) {
 
 TEST(OutputFile, RefusesAMissingFolder) {
   const TemporaryFolder folder;
-  try {
-    OutputFile output(folder / "missing/part.inp");
-    FAIL();
-  } catch (const IoError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("missing/part.inp"));
-    EXPECT_EQ(error.exit_code(), 6);
-  }
+  const auto error = error_from<IoError>([&] { OutputFile output(folder / "missing/part.inp"); });
+  EXPECT_THAT(error.what(), HasSubstr("missing/part.inp"));
+  EXPECT_EQ(error.exit_code(), 6);
 }
 
 TEST(OutputFile, RefusesDirectoriesAndDevices) {

@@ -1,7 +1,7 @@
 #include "preproc/surface/fit/preserve_volume.hpp"
 
-#include "analytic_meshes.hpp"
 #include "preproc/mesh/error.hpp"
+#include "tests/analytic_meshes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,11 +9,6 @@
 
 namespace scan2fea {
 namespace {
-
-SurfaceMesh moved(SurfaceMesh mesh, const Vec3& by) {
-  for (Vec3& p : mesh.vertices) p += by;
-  return mesh;
-}
 
 TEST(PreserveVolume, GivesACoarseSphereTheVolumeOfTheFineOne) {
   const SurfaceMesh fine = analytic::sphere(2, 5);
@@ -26,8 +21,8 @@ TEST(PreserveVolume, GivesACoarseSphereTheVolumeOfTheFineOne) {
 
 TEST(PreserveVolume, FarFromTheOriginToo) {
   const Vec3 far(1e5, -2e5, 3e5);
-  const SurfaceMesh fine = moved(analytic::sphere(2, 4), far);
-  SurfaceMesh coarse = moved(analytic::sphere(2, 3), far);
+  const SurfaceMesh fine = analytic::moved(analytic::sphere(2, 4), far);
+  SurfaceMesh coarse = analytic::moved(analytic::sphere(2, 3), far);
   preserve_volume(coarse, fine);
   EXPECT_NEAR(enclosed_volume(coarse) / enclosed_volume(fine), 1, 1e-10);
 }
@@ -49,7 +44,7 @@ TEST(PreserveVolume, NestedSpheresEachKeepTheirOwn) {
 
 TEST(PreserveVolume, UnpairedComponentsShareOneShift) {
   const SurfaceMesh like = analytic::sphere(1, 4);
-  SurfaceMesh mesh = analytic::join(analytic::sphere(0.99, 3), moved(analytic::sphere(0.05, 2), {3, 0, 0}));
+  SurfaceMesh mesh = analytic::join(analytic::sphere(0.99, 3), analytic::moved(analytic::sphere(0.05, 2), {3, 0, 0}));
   EXPECT_EQ(preserve_volume(mesh, like).components, 1U);
   EXPECT_NEAR(enclosed_volume(mesh) / enclosed_volume(like), 1, 1e-12);
 }

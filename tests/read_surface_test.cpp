@@ -4,6 +4,7 @@
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/write_surface.hpp"
 #include "tests/analytic_meshes.hpp"
+#include "tests/error_from.hpp"
 #include "tests/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
@@ -29,15 +30,9 @@ class ReadSurface : public testing::Test {
     return error_of(write_text(folder_ / name, content));
   }
   static std::string error_of(const std::filesystem::path& file) {
-    try {
-      read_surface(file);
-    } catch (const InvalidInput& error) {
-      EXPECT_EQ(error.exit_code(), 3);
-      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
-      return error.what();
-    }
-    ADD_FAILURE() << "no error";
-    return {};
+    const auto error = error_from<InvalidInput>([&] { read_surface(file); });
+    EXPECT_EQ(error.exit_code(), 3);
+    return error.what();
   }
 
   TemporaryFolder folder_;

@@ -29,7 +29,7 @@ TEST(RepairConnectivity, DoubledFacesAreHalved) {
 }
 
 TEST(RepairConnectivity, DoubleWallBetweenBoxesIsTakenOut) {
-  SurfaceMesh mesh = welded(analytic::join(unit_box(3), moved(unit_box(3), {1, 0, 0})));
+  SurfaceMesh mesh = welded(analytic::join(unit_box(3), analytic::moved(unit_box(3), {1, 0, 0})));
   // Exactly coincident walls need exactly coincident vertices: thirds do not add up to one, places at x = 1 do.
   const RepairResult result = repair(mesh);
   expect_sound(mesh);
@@ -40,7 +40,7 @@ TEST(RepairConnectivity, DoubleWallBetweenBoxesIsTakenOut) {
 
 TEST(RepairConnectivity, SingleWallInABoxIsTakenOut) {
   SurfaceMesh mesh = welded(analytic::join(
-      unit_box(3), moved(without_faces(unit_box(3), [](const Vec3& c) { return c.x() < 1e-9; }), {1, 0, 0})));
+      unit_box(3), analytic::moved(without_faces(unit_box(3), [](const Vec3& c) { return c.x() < 1e-9; }), {1, 0, 0})));
   const RepairResult result = repair(mesh);
   expect_sound(mesh);
   EXPECT_EQ(check_validity(mesh).components, 1u);
@@ -61,7 +61,7 @@ TEST(RepairConnectivity, FlapIsTakenOff) {
 }
 
 TEST(RepairConnectivity, BoxesThatShareAnEdgeComeApart) {
-  SurfaceMesh mesh = welded(analytic::join(unit_box(2), moved(unit_box(2), {1, 1, 0})));
+  SurfaceMesh mesh = welded(analytic::join(unit_box(2), analytic::moved(unit_box(2), {1, 1, 0})));
   ASSERT_GT(check_validity(mesh).non_manifold_edges, 0u);
   const RepairResult result = repair(mesh);
   expect_sound(mesh);
@@ -71,7 +71,7 @@ TEST(RepairConnectivity, BoxesThatShareAnEdgeComeApart) {
 }
 
 TEST(RepairConnectivity, BoxesThatShareAVertexComeApart) {
-  SurfaceMesh mesh = welded(analytic::join(unit_box(2), moved(unit_box(2), {1, 1, 1})));
+  SurfaceMesh mesh = welded(analytic::join(unit_box(2), analytic::moved(unit_box(2), {1, 1, 1})));
   ASSERT_EQ(check_validity(mesh).non_manifold_vertices, 1u);
   const RepairResult result = repair(mesh);
   expect_sound(mesh);
@@ -91,7 +91,7 @@ TEST(RepairConnectivity, SoupOfSeparateFacesIsWelded) {
 }
 
 TEST(RepairConnectivity, TouchingVerticesThatCloseNoBorderAreNotWelded) {
-  SurfaceMesh mesh = analytic::join(unit_box(2), moved(unit_box(2), {1, 1, 1}));
+  SurfaceMesh mesh = analytic::join(unit_box(2), analytic::moved(unit_box(2), {1, 1, 1}));
   const RepairResult result = repair(mesh);
   expect_sound(mesh);
   EXPECT_EQ(result.count(RepairKind::WeldedVertex), 0u);

@@ -19,7 +19,7 @@ using ::testing::HasSubstr;
 TEST(RepairIntersections, CrossingSolidsBecomeOne) {
   const SurfaceMesh ball = analytic::sphere(1, 4);
   const double distance = 1.21;
-  SurfaceMesh mesh = analytic::join(ball, moved(ball, {distance, 0.07, 0.03}));
+  SurfaceMesh mesh = analytic::join(ball, analytic::moved(ball, {distance, 0.07, 0.03}));
   const RepairResult result = repair(mesh);
   expect_sound(mesh);
   EXPECT_EQ(check_validity(mesh).components, 1u);
@@ -31,7 +31,7 @@ TEST(RepairIntersections, CrossingSolidsBecomeOne) {
 }
 
 TEST(RepairIntersections, BoxesThatTouchAlongFacesBecomeOne) {
-  SurfaceMesh mesh = analytic::join(analytic::box({2, 2, 1}, 1), moved(unit_box(1), {0.5, 0.5, 1}));
+  SurfaceMesh mesh = analytic::join(analytic::box({2, 2, 1}, 1), analytic::moved(unit_box(1), {0.5, 0.5, 1}));
   repair(mesh);
   expect_sound(mesh);
   EXPECT_EQ(check_validity(mesh).components, 1u);
@@ -39,7 +39,7 @@ TEST(RepairIntersections, BoxesThatTouchAlongFacesBecomeOne) {
 }
 
 TEST(RepairIntersections, BoxWithinABoxThatReachesOutIsUnited) {
-  SurfaceMesh mesh = analytic::join(unit_box(3), moved(analytic::box({0.2, 0.2, 2}, 0.2), {0.4, 0.4, -0.5}));
+  SurfaceMesh mesh = analytic::join(unit_box(3), analytic::moved(analytic::box({0.2, 0.2, 2}, 0.2), {0.4, 0.4, -0.5}));
   repair(mesh);
   expect_sound(mesh);
   EXPECT_NEAR(enclosed_volume(mesh), 1 + 0.04, 1e-9);

@@ -74,7 +74,7 @@ TEST(Repair, NestedShellsAlternate) {
 TEST(Repair, SpecksAndUnusedVerticesAreDropped) {
   const SurfaceMesh ball = analytic::sphere(10, 3);
   const SurfaceMesh speck = analytic::sphere(0.05, 1);
-  SurfaceMesh mesh = analytic::join(ball, moved(speck, {12, 0, 0}));
+  SurfaceMesh mesh = analytic::join(ball, analytic::moved(speck, {12, 0, 0}));
   mesh.vertices.push_back({0, 0, 20});
   const RepairResult result = repair(mesh);
   EXPECT_EQ(mesh.vertices, ball.vertices);
@@ -87,7 +87,7 @@ TEST(Repair, SpecksAndUnusedVerticesAreDropped) {
 TEST(Repair, OpenFragmentsAreDropped) {
   const SurfaceMesh ball = analytic::sphere(10, 3);
   const SurfaceMesh sheet = without_faces(unit_box(3), [](const Vec3& c) { return c.z() > 1e-9; });
-  SurfaceMesh mesh = analytic::join(ball, moved(sheet, {12, 0, 0}));
+  SurfaceMesh mesh = analytic::join(ball, analytic::moved(sheet, {12, 0, 0}));
   const RepairResult result = repair(mesh);
   EXPECT_EQ(mesh.triangles, ball.triangles);
   EXPECT_EQ(result.count(RepairKind::DroppedFragment), 1u);

@@ -8,11 +8,6 @@
 namespace scan2fea {
 namespace {
 
-SurfaceMesh moved(SurfaceMesh mesh, const Vec3& by) {
-  for (Vec3& v : mesh.vertices) v += by;
-  return mesh;
-}
-
 SurfaceMesh triangles(std::vector<Vec3> vertices, std::vector<Triangle> faces) {
   return {std::move(vertices), std::move(faces)};
 }
@@ -29,7 +24,7 @@ TEST(SelfIntersections, FlatNeighboursHaveNone) {  // exact: coplanar faces side
 TEST(SelfIntersections, CrossingBoxesIntersect) {
   const SurfaceMesh box = analytic::box({1, 1, 1}, 0.5);
   const auto n = static_cast<std::uint32_t>(box.triangles.size());
-  const auto pairs = find_self_intersections(analytic::join(box, moved(box, {0.3, 0.31, 0.32})));
+  const auto pairs = find_self_intersections(analytic::join(box, analytic::moved(box, {0.3, 0.31, 0.32})));
   EXPECT_FALSE(pairs.empty());
   for (const FacePair& pair : pairs) {
     EXPECT_LT(pair.face, n);
@@ -40,7 +35,7 @@ TEST(SelfIntersections, CrossingBoxesIntersect) {
 
 TEST(SelfIntersections, ABoxInsideAnotherDoesNot) {
   EXPECT_TRUE(find_self_intersections(
-                  analytic::join(analytic::box({3, 3, 3}, 1), moved(analytic::box({1, 1, 1}, 1), {1, 1, 1})))
+                  analytic::join(analytic::box({3, 3, 3}, 1), analytic::moved(analytic::box({1, 1, 1}, 1), {1, 1, 1})))
                   .empty());
 }
 
@@ -65,7 +60,7 @@ TEST(SelfIntersections, AFoldIsOneOnlyWhenFlat) {
 
 TEST(SelfIntersections, TheUnitDoesNotMatter) {  // down to where products of coordinates underflow
   const SurfaceMesh sphere = analytic::sphere(1, 2);
-  const SurfaceMesh crossing = analytic::join(sphere, moved(sphere, {0.4, 0.1, 0.2}));
+  const SurfaceMesh crossing = analytic::join(sphere, analytic::moved(sphere, {0.4, 0.1, 0.2}));
   const auto expected = find_self_intersections(crossing);
   ASSERT_FALSE(expected.empty());
   for (const double unit : {0x1p-600, 0x1p-300, 0x1p300}) {
@@ -89,7 +84,7 @@ TEST(SelfIntersections, ACollinearFaceIsReportedByItself) {
 
 TEST(SelfIntersections, OfASubsetAreThoseOfAllThatTouchIt) {
   const SurfaceMesh sphere = analytic::sphere(1, 3);
-  const SurfaceMesh mesh = analytic::join(analytic::noisy(sphere, 0.05, 3), moved(sphere, {0.4, 0.1, 0.2}));
+  const SurfaceMesh mesh = analytic::join(analytic::noisy(sphere, 0.05, 3), analytic::moved(sphere, {0.4, 0.1, 0.2}));
   const auto all = find_self_intersections(mesh);
   ASSERT_GT(all.size(), 10U);
   std::vector<std::uint32_t> subset;

@@ -1,12 +1,12 @@
 #include "preproc/surface/fit/shape_fit.hpp"
 
-#include "analytic_meshes.hpp"
 #include "preproc/mesh/error.hpp"
 #include "preproc/surface/features/find_features.hpp"
 #include "preproc/surface/fit/sample_surface.hpp"
 #include "preproc/surface/kernel/locate.hpp"
 #include "preproc/surface/lattice/lattice.hpp"
 #include "quality/triangle_measures.hpp"
+#include "tests/analytic_meshes.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <gmock/gmock.h>
@@ -17,14 +17,6 @@
 
 namespace scan2fea {
 namespace {
-
-double mean_edge_ratio(const SurfaceMesh& mesh) {
-  double sum = 0;
-  for (const Triangle& t : mesh.triangles) {
-    sum += edge_ratio(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
-  }
-  return sum / static_cast<double>(mesh.triangles.size());
-}
 
 double shape_term(const ShapeEnergy& energy, const Vec3& p, const Vec3& a, const Vec3& b) {
   const double e = eta(p, a, b);
@@ -137,10 +129,10 @@ class NoisySphere : public testing::Test {
 };
 
 TEST_F(NoisySphere, BecomesRoundAndEquilateral) {
-  const double before = mean_edge_ratio(mesh);
+  const double before = measure_triangles(mesh).edge_ratio.mean;
   const ShapeFitResult result = optimise_shape_and_fit(mesh, scan);
-  EXPECT_LT(mean_edge_ratio(mesh), 0.5 * (1 + before));
-  EXPECT_LT(mean_edge_ratio(mesh), 1.15);
+  EXPECT_LT(measure_triangles(mesh).edge_ratio.mean, 0.5 * (1 + before));
+  EXPECT_LT(measure_triangles(mesh).edge_ratio.mean, 1.15);
   // A mesh that balances its error has an RMS of at most the sagitta of an edge, h^2 / 8 R.
   const double sagitta = edge * edge / 8;
   EXPECT_LT(result.rms_distance, sagitta);
@@ -156,7 +148,7 @@ TEST_F(NoisySphere, BothSidesAndTheTailFitAsWell) {
   options.lift_tail_of_diagonal = 0.001;
   const ShapeFitResult result = optimise_shape_and_fit(mesh, scan, options);
   EXPECT_LT(result.rms_distance, edge * edge / 8);
-  EXPECT_LT(mean_edge_ratio(mesh), 1.15);
+  EXPECT_LT(measure_triangles(mesh).edge_ratio.mean, 1.15);
 }
 
 TEST_F(NoisySphere, AFixedVertexStaysInPlace) {
@@ -189,7 +181,7 @@ TEST_F(NoisySphere, FitsAScanCoarserThanItself) {
   const SurfaceMesh coarse = analytic::sphere(1, 2);
   const ShapeFitResult result = optimise_shape_and_fit(mesh, ReferenceSurface(coarse));
   EXPECT_LT(result.rms_distance, 0.02);
-  EXPECT_LT(mean_edge_ratio(mesh), 1.2);
+  EXPECT_LT(measure_triangles(mesh).edge_ratio.mean, 1.2);
 }
 
 TEST_F(NoisySphere, RefusesOptionsOutOfRange) {

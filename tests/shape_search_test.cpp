@@ -22,13 +22,6 @@ SimplifyOptions for_tetrahedra(std::size_t faces) {
   return options;
 }
 
-double mean_edge(const SurfaceMesh& mesh) {
-  double sum = 0;
-  for (const Triangle& t : mesh.triangles)
-    for (std::size_t k = 0; k < 3; ++k) sum += (mesh.vertices[t[k]] - mesh.vertices[t[(k + 1) % 3]]).norm();
-  return sum / (3 * static_cast<double>(mesh.triangles.size()));
-}
-
 void expect_sound(const SurfaceMesh& mesh, const SurfaceMesh& scan) {
   const SurfaceValidity validity = check_validity(mesh);
   EXPECT_TRUE(validity.closed());
@@ -54,7 +47,7 @@ TEST(ShapeSearch, AThinWallGetsTrianglesThatLeaveElementsAHeight) {
   SurfaceMesh mesh = scan;
   simplify(mesh, for_tetrahedra(200));  // edges of about 1.6
   expect_sound(mesh, scan);
-  EXPECT_GE(0.5 / mean_edge(mesh), 0.35);
+  EXPECT_GE(0.5 / mean_edge_length(mesh), 0.35);
 }
 
 TEST(ShapeSearch, WhatIsWellShapedStaysAsItIs) {

@@ -21,32 +21,12 @@
 namespace scan2fea {
 namespace {
 
-SurfaceMesh moved(SurfaceMesh mesh, const Vec3& by) {
-  for (Vec3& p : mesh.vertices) p += by;
-  return mesh;
-}
-
 // Signed volumes of the components, ascending: cavities first.
 std::vector<double> component_volumes(const SurfaceMesh& mesh) {
-  std::vector<std::uint32_t> root(mesh.vertices.size());
-  for (std::uint32_t v = 0; v < root.size(); ++v) root[v] = v;
-  const auto find = [&](std::uint32_t v) {
-    while (root[v] != v) v = root[v] = root[root[v]];
-    return v;
-  };
-  for (const Triangle& t : mesh.triangles) {
-    root[find(t[1])] = find(t[0]);
-    root[find(t[2])] = find(t[0]);
-  }
-  std::vector<double> of_root(root.size(), 0);
-  std::vector<bool> is_used(root.size(), false);
-  for (const Triangle& t : mesh.triangles) {
-    of_root[find(t[0])] += mesh.vertices[t[0]].dot(mesh.vertices[t[1]].cross(mesh.vertices[t[2]])) / 6;
-    is_used[find(t[0])] = true;
-  }
-  std::vector<double> volumes;
-  for (std::size_t v = 0; v < root.size(); ++v)
-    if (is_used[v]) volumes.push_back(of_root[v]);
+  const Components components = find_components(mesh);
+  std::vector<double> volumes(components.count, 0);
+  for (const Triangle& t : mesh.triangles)
+    volumes[components.of_vertex[t[0]]] += mesh.vertices[t[0]].dot(mesh.vertices[t[1]].cross(mesh.vertices[t[2]])) / 6;
   std::sort(volumes.begin(), volumes.end());
   return volumes;
 }

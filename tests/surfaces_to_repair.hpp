@@ -5,6 +5,7 @@
 #include "quality/self_intersections.hpp"
 #include "quality/validity.hpp"
 #include "tests/analytic_meshes.hpp"
+#include "tests/error_from.hpp"
 
 #include <gtest/gtest.h>
 
@@ -20,11 +21,6 @@ inline void expect_sound(const SurfaceMesh& mesh) {
   EXPECT_EQ(validity.unused_vertices, 0u);
   EXPECT_TRUE(find_self_intersections(mesh).empty());
   EXPECT_GT(enclosed_volume(mesh), 0);
-}
-
-inline SurfaceMesh moved(SurfaceMesh mesh, const Vec3& by) {
-  for (Vec3& p : mesh.vertices) p += by;
-  return mesh;
 }
 
 inline SurfaceMesh unit_box(int squares_per_side) {
@@ -66,13 +62,7 @@ inline RepairOptions closing_all() {
 }
 
 inline std::string message_of_failure(SurfaceMesh mesh, const RepairOptions& options = {}) {
-  try {
-    repair(mesh, options);
-  } catch (const NotMeshable& error) {
-    return error.what();
-  }
-  ADD_FAILURE() << "expected NotMeshable";
-  return {};
+  return error_from<NotMeshable>([&] { repair(mesh, options); }).what();
 }
 
 }  // namespace scan2fea

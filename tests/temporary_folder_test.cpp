@@ -1,6 +1,7 @@
 #include "tests/temporary_folder.hpp"
 
 #include "preproc/mesh/error.hpp"
+#include "tests/error_from.hpp"
 
 #include <gmock/gmock.h>
 
@@ -47,14 +48,10 @@ TEST_F(TemporaryFolderTest, SaysWhereNoneCanBeMade) {
   const TemporaryFolder outer;
   const std::string missing = outer / "missing";
   setenv("TMPDIR", missing.c_str(), 1);
-  try {
-    const TemporaryFolder folder;
-    FAIL() << "made " << folder.path();
-  } catch (const IoError& error) {
-    EXPECT_EQ(error.parts().where, missing);
-    EXPECT_THAT(error.what(), HasSubstr("cannot make a temporary folder"));
-    EXPECT_THAT(error.what(), HasSubstr("set TMPDIR"));
-  }
+  const auto error = error_from<IoError>([] { TemporaryFolder(); });
+  EXPECT_EQ(error.parts().where, missing);
+  EXPECT_THAT(error.what(), HasSubstr("cannot make a temporary folder"));
+  EXPECT_THAT(error.what(), HasSubstr("set TMPDIR"));
 }
 
 }  // namespace

@@ -30,11 +30,6 @@ void for_each_middle(const SurfaceMesh& mesh, const WallOptions& options, const 
   }
 }
 
-SurfaceMesh moved(SurfaceMesh mesh, const Vec3& way) {
-  for (Vec3& v : mesh.vertices) v += way;
-  return mesh;
-}
-
 TEST(WallThickness, OfASlab) {
   const SurfaceMesh slab = analytic::box({10, 10, 1}, 0.5);
   const TriangleTree tree(slab);
@@ -113,8 +108,9 @@ TEST(WallThickness, TheAngleBetweenTheSidesIsAnOption) {
 }
 
 TEST(WallThickness, OfATube) {
-  const SurfaceMesh tube = analytic::join(analytic::cylinder(3, 20, 128, 60),
-                                          analytic::reversed(moved(analytic::cylinder(2, 16, 128, 48), {0, 0, 2})));
+  const SurfaceMesh tube =
+      analytic::join(analytic::cylinder(3, 20, 128, 60),
+                     analytic::reversed(analytic::moved(analytic::cylinder(2, 16, 128, 48), {0, 0, 2})));
   std::size_t asked = 0;
   for_each_middle(tube, {.deepest = 2.5}, [&](const Vec3& p, const Vec3& n, const auto& wall) {
     if (std::abs(n.z()) > 0.5 || p.z() < 4 || p.z() > 16) return;

@@ -53,7 +53,7 @@ bool ProgressDisplay::update(std::string_view stage, double fraction) {
   if (bar_shown_ && now - last_drawn_ < std::chrono::milliseconds(50)) return true;
   last_drawn_ = now;
   bar_shown_ = true;
-  constexpr int width = 30;
+  constexpr int width = 30;  // beside the stage's name it leaves a terminal of 80 columns some room
   const double clamped = std::clamp(fraction, 0.0, 1.0);
   const std::string filled(static_cast<std::size_t>(clamped * width), '#');
   std::fprintf(stderr, "\r\033[K%-16.*s [%-*s] %3.0f %%", static_cast<int>(stage.size()), stage.data(), width,

@@ -21,7 +21,7 @@ std::size_t promised_triangles(std::string_view bytes) {
 
 // Programs write "solid" at the start of binary files too, so the count and control characters are what tells.
 bool looks_like_text(std::string_view bytes) {
-  constexpr std::size_t sample = 1024;
+  constexpr std::size_t sample = 1024;  // a binary file has its count in it, and some nineteen triangles
   return std::ranges::none_of(bytes.substr(0, sample), [](char c) {
     const auto code = static_cast<unsigned char>(c);
     return code < 0x20 && c != '\t' && c != '\n' && c != '\v' && c != '\f' && c != '\r';
@@ -58,7 +58,8 @@ SurfaceMesh read_binary(const InputFile& file) {
   const auto point = [&](std::size_t t, std::size_t k) {
     return read_corner(file, bytes.data() + header_size + t * triangle_size + corner_offset + k * corner_size);
   };
-  constexpr std::size_t ahead = 8;  // triangles; welding waits for memory otherwise
+  // Welding waits for memory otherwise: the places of corners in its table are fetched so many triangles ahead.
+  constexpr std::size_t ahead = 8;
   for (std::size_t t = 0; t < promised; ++t) {
     if (t + ahead < promised)
       for (std::size_t k = 0; k < 3; ++k) welder.prefetch(point(t + ahead, k));

@@ -31,4 +31,12 @@ double surface_area(const SurfaceMesh& mesh) {
   return twice_area / 2;
 }
 
+double mean_edge_length(const SurfaceMesh& mesh) {
+  if (mesh.triangles.empty()) return 0;
+  double sum = 0;
+  for (const Triangle& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k) sum += (mesh.vertices[t[k]] - mesh.vertices[t[(k + 1) % 3]]).norm();
+  return sum / (3 * static_cast<double>(mesh.triangles.size()));
+}
+
 }  // namespace scan2fea

@@ -48,4 +48,7 @@ double enclosed_volume(const SurfaceMesh& mesh);
 
 double surface_area(const SurfaceMesh& mesh);
 
+// Over the triangles' sides, so that an edge counts once for each of its triangles; 0 where there are none.
+double mean_edge_length(const SurfaceMesh& mesh);
+
 }  // namespace scan2fea

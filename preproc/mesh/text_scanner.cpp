@@ -113,7 +113,7 @@ bool TextScanner::ends_word(const char* at) const {
 }
 
 void TextScanner::fail_number(const char* expected) const {
-  constexpr std::size_t longest_quotation = 40;
+  constexpr std::size_t longest_quotation = 40;  // a message is one line, and the word may be a binary file
   TextScanner here = *this;
   std::string value(here.word().substr(0, longest_quotation));
   if (!value.empty()) fail(at_, "not " + std::string(expected), std::move(value));

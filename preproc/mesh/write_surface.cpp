@@ -46,7 +46,7 @@ class Buffer {
   }
 
  private:
-  static constexpr std::size_t capacity = 1 << 16;
+  static constexpr std::size_t capacity = 1 << 16;  // bytes; what the stream is handed at a time
   std::ostream& stream_;
   std::string bytes_;
 };

@@ -11,12 +11,9 @@ std::size_t estimate_with_lattice(const SurfaceMesh& surface, std::size_t lattic
 }
 
 std::size_t estimate_with_tetgen(const SurfaceMesh& surface, const std::optional<double>& max_volume) {
-  double edges = 0;
-  for (const Triangle& t : surface.triangles)
-    for (std::size_t k = 0; k < 3; ++k) edges += (surface.vertices[t[k]] - surface.vertices[t[(k + 1) % 3]]).norm();
   const auto triangles = static_cast<double>(surface.triangles.size());
   const double volume = std::abs(enclosed_volume(surface));
-  const double depth = volume / (surface_area(surface) * edges / (3 * triangles));
+  const double depth = volume / (surface_area(surface) * mean_edge_length(surface));
   double count = triangles * std::max(1.4, 2.25 + 0.65 * std::log2(std::max(depth, 1e-9)));
   // TetGen splits what is larger: the mean comes out at about half of the largest.
   if (max_volume) count = std::max(count, 1.9 * volume / *max_volume);

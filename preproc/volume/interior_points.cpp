@@ -18,13 +18,6 @@ constexpr double shrinkage = 0.5;       // the same, where the inside is to be f
 constexpr double jitter = 1e-4;         // of a cell
 constexpr double wall_in_edges = 0.8;   // thinner is thin
 
-double mean_edge(const SurfaceMesh& surface) {
-  double sum = 0;
-  for (const Triangle& t : surface.triangles)
-    for (std::size_t k = 0; k < 3; ++k) sum += (surface.vertices[t[k]] - surface.vertices[t[(k + 1) % 3]]).norm();
-  return sum / (3.0 * static_cast<double>(surface.triangles.size()));
-}
-
 // A place on the finest grid that the octree may reach.
 struct GridPlace {
   std::array<std::uint32_t, 3> at;
@@ -49,7 +42,7 @@ class LatticeTree {
       largest_surface_size_ = std::max(largest_surface_size_, surface_size_.back());
     }
     // One level of the tree has exactly the cells that the mean edge asks for.
-    double cell = edge_length(mean_edge(surface), 0) / mean_edge_per_cell;
+    double cell = edge_length(mean_edge_length(surface), 0) / mean_edge_per_cell;
     const BoundingBox box = bounding_box(surface.vertices);
     const double extent = (box.high - box.low).maxCoeff() + cell;
     while (cell < extent) cell *= 2;

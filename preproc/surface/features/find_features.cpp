@@ -26,13 +26,6 @@ constexpr double near_crease_of_angle = 0.6;
 // The share of a weak crease's angle that the filter leaves.
 constexpr double continuation_left_by_filter = 0.75;
 
-double mean_edge_length(const SurfaceMesh& scan) {
-  double sum = 0;
-  for (const Triangle& t : scan.triangles)
-    for (std::size_t k = 0; k < 3; ++k) sum += (scan.vertices[t[k]] - scan.vertices[t[(k + 1) % 3]]).norm();
-  return scan.triangles.empty() ? 0 : sum / (3 * static_cast<double>(scan.triangles.size()));
-}
-
 double angle_deg(const Vec3& a, const Vec3& b) {
   return angle_between(a, b) * (180 / std::numbers::pi);
 }
