@@ -250,9 +250,9 @@ SurfaceMesh reversed(SurfaceMesh mesh) {
 
 SurfaceMesh noisy(SurfaceMesh mesh, double sigma, unsigned seed) {
   std::mt19937 generator(seed);
-  std::normal_distribution<double> noise(0, sigma);
+  std::normal_distribution<double> noise;  // not of `sigma`, which may be zero here and may not there
   for (Vec3& v : mesh.vertices)
-    for (int k = 0; k < 3; ++k) v[k] += noise(generator);
+    for (int k = 0; k < 3; ++k) v[k] += sigma * noise(generator);
   return mesh;
 }
 
