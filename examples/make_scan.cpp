@@ -159,7 +159,7 @@ class SurfaceNets {
       }
     if (crossings == 0) return;
     vertex_[index(n)] = static_cast<std::uint32_t>(mesh_.vertices.size());
-    mesh_.vertices.push_back(sum / crossings);
+    mesh_.vertices.emplace_back(sum / crossings);
   }
 
   // Around the grid edge from n along `axis`, through the vertices of the four cells about it.

@@ -51,7 +51,7 @@ std::vector<std::uint32_t> resolve(const RawMesh& raw, const std::vector<std::ui
 void require_distinct(const TetMesh& mesh, const Place& place_of_element) {
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
     std::array<std::uint32_t, 10> nodes{};
-    auto end = std::copy(mesh.tetrahedra[t].begin(), mesh.tetrahedra[t].end(), nodes.begin());
+    auto* end = std::copy(mesh.tetrahedra[t].begin(), mesh.tetrahedra[t].end(), nodes.begin());
     if (mesh.order() == 2) end = std::copy(mesh.mid_edge_nodes[t].begin(), mesh.mid_edge_nodes[t].end(), end);
     std::sort(nodes.begin(), end);
     if (std::adjacent_find(nodes.begin(), end) != end)

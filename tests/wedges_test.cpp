@@ -38,7 +38,8 @@ double least_angle_deg(const SurfaceMesh& mesh) {
 
 double sharpest_deg(const SurfaceMesh& mesh, const ReferenceSurface& scan) {
   double sharpest = 180;
-  for (const Wedge& w : find_wedges(mesh, scan, 90)) sharpest = std::min(sharpest, w.angle_deg);
+  for (const Wedge& w : find_wedges(mesh, MeshAdjacency(mesh).neighbours, scan, 90))
+    sharpest = std::min(sharpest, w.angle_deg);
   return sharpest;
 }
 
@@ -86,7 +87,7 @@ TEST(Wedges, AreNotOfTheScanForOneOfItsEdges) {
   std::vector<FeatureEdge> none;
   halve_long_edges(mesh, length, none, 1, 1);
   ASSERT_GT(mesh.triangles.size(), 10 * scan.triangles.size());
-  const std::vector<Wedge> wedges = find_wedges(mesh, ReferenceSurface(scan), 64);
+  const std::vector<Wedge> wedges = find_wedges(mesh, MeshAdjacency(mesh).neighbours, ReferenceSurface(scan), 64);
   ASSERT_FALSE(wedges.empty());
   for (const Wedge& w : wedges) EXPECT_EQ(w.wanted_deg, 64);
 }

@@ -44,10 +44,11 @@ struct WedgeResult {
   bool opened() const { return after < before; }
 };
 
-// The edges sharper than the limit, with the angle wanted of them. The scan counts as sharp where its own edges,
-// sharper than the limit, make a line two edges long along the wedge, within two edges of its middle, of the mesh or of
-// the scan where these are longer. O(n), and a search in the scan for each of them.
-std::vector<Wedge> find_wedges(const SurfaceMesh& mesh, const ReferenceSurface& scan, double least_dihedral_deg);
+// The edges sharper than the limit, with the angle wanted of them. `neighbours`: see face_neighbours. The scan counts
+// as sharp where its own edges, sharper than the limit, make a line two edges long along the wedge, within two edges of
+// its middle, of the mesh or of the scan where these are longer. O(n), and a search in the scan for each of them.
+std::vector<Wedge> find_wedges(const SurfaceMesh& mesh, const std::vector<Triangle>& neighbours,
+                               const ReferenceSurface& scan, double least_dihedral_deg);
 
 // Moves the vertices within two rings of each wedge and near pair to the minimum of the triangles' shape energy (see
 // shape_energy.hpp), the squared lack of dihedral angles and distances, and the squared way from where they were; then
