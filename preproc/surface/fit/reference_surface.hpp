@@ -6,7 +6,9 @@
 #include "preproc/surface/kernel/adjacency.hpp"
 #include "quality/triangle_measures.hpp"
 
+#include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <vector>
 
 namespace scan2fea {
@@ -29,8 +31,12 @@ struct ReferenceSurface {
   double diagonal = 0;  // of the bounding box
   double area = 0;
 
-  // Of a result with so many triangles.
-  double mean_edge(std::size_t triangles) const { return equilateral_edge(area, static_cast<double>(triangles)); }
+  // Of a result with so many triangles. Written out, though equilateral_edge is the same length: the two differ in the
+  // last bit, and fits of a few hundred triangles that barely succeed turn out otherwise by it (a helmet of 300:
+  // smallest angle 4.7 degrees instead of 12.7).
+  double mean_edge(std::size_t triangles) const {
+    return std::sqrt(4 / std::numbers::sqrt3 * area / static_cast<double>(triangles));
+  }
 
  private:
   ReferenceSurface(const SurfaceMesh& cut, const SurfaceMesh& scan);
