@@ -1,4 +1,4 @@
-// The scan, made ready to be asked: what the fitting, guarding and relaxing stages all need of it, computed once.
+// The scan, made ready to be asked: what the fitting and mending stages all need of it, computed once.
 #pragma once
 
 #include "preproc/mesh/surface_mesh.hpp"

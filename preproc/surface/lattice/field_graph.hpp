@@ -47,7 +47,7 @@ Complex gradient_at(const GraphLevel& level, std::size_t i, const TangentFrame& 
     const std::uint32_t j = level.neighbours[e];
     const Complex d = frame.coordinates(level.positions[j] - level.positions[i]);
     const double difference = rise(j);
-    const double w = static_cast<double>(level.weights[e]);
+    const auto w = static_cast<double>(level.weights[e]);
     xx += w * d.real() * d.real();
     xy += w * d.real() * d.imag();
     yy += w * d.imag() * d.imag();

@@ -186,29 +186,30 @@ TargetSize in_model_units(const TargetSize& size, const BoundingBox& scan) {
   return LargestDeviation{.distance = bound->distance * scan.diagonal(), .required = bound->required};
 }
 
-SimplifyResult simplify(const SurfaceMesh& mesh, SurfaceMesh& surface, const SimplifyOptions& options,
+SimplifyResult simplify(const SurfaceMesh& scan, SurfaceMesh& surface, const SimplifyOptions& options,
                         const Progress& progress) {
   check_options(options);
-  const TargetSize size = in_model_units(options.size, bounding_box(mesh.vertices));
-  const double area = surface_area(mesh);
-  const double edge = typical_edge(size, mesh, area);
-  Features features = features_of(mesh, options);
+  const TargetSize size = in_model_units(options.size, bounding_box(scan.vertices));
+  const double area = surface_area(scan);
+  const double edge = typical_edge(size, scan, area);
+  Features features = features_of(scan, options);
   SimplifyResult result;
-  result.faces_before = mesh.triangles.size();
+  result.faces_before = scan.triangles.size();
   result.feature_edges = features.edges.size();
-  result.features = lines_of(mesh, features.edges);
+  result.features = lines_of(scan, features.edges);
 
-  if (!options.given_features) features.edges = select_features(mesh, std::move(features.edges), edge);
-  const CurveTolerance tolerance = tolerance_of_curves(mesh, size, features.noise);
-  const std::optional<SurfaceMesh> parted = with_smaller_faces(mesh, options, area, edge, features.edges);
-  const auto scan = std::make_shared<const PreparedScan>(parted ? *parted : mesh, std::move(features.edges), tolerance);
+  if (!options.given_features) features.edges = select_features(scan, std::move(features.edges), edge);
+  const CurveTolerance tolerance = tolerance_of_curves(scan, size, features.noise);
+  const std::optional<SurfaceMesh> parted = with_smaller_faces(scan, options, area, edge, features.edges);
+  const auto prepared =
+      std::make_shared<const PreparedScan>(parted ? *parted : scan, std::move(features.edges), tolerance);
   std::vector<double> longest;
-  if (!options.limits.empty()) longest = longest_edges(scan->mesh, options.limits, longest_edge_of_part * edge);
+  if (!options.limits.empty()) longest = longest_edges(prepared->mesh, options.limits, longest_edge_of_part * edge);
   const auto* bound = std::get_if<LargestDeviation>(&size);
   MadeSurface made =
       bound != nullptr
-          ? MadeSurface{make_surface_within(scan, *bound, most_triangles_of(mesh), longest, options, progress), {}}
-          : make_surface_of(wanted_faces(size, mesh, area), scan, longest, options, progress);
+          ? MadeSurface{make_surface_within(prepared, *bound, most_triangles_of(scan), longest, options, progress), {}}
+          : make_surface_of(wanted_faces(size, scan, area), prepared, longest, options, progress);
 
   const Candidate& candidate = made.candidate;
   result.method = candidate.method;
@@ -217,7 +218,7 @@ SimplifyResult simplify(const SurfaceMesh& mesh, SurfaceMesh& surface, const Sim
   result.crossings_mended = candidate.crossings_mended;
   result.largest_deviation = candidate.largest_deviation;
   result.feature_edges_kept = candidate.feature_edges();
-  result.feature_remark = feature_remark(scan->creases().size(), candidate.scan->creases().size());
+  result.feature_remark = feature_remark(prepared->creases().size(), candidate.scan->creases().size());
   result.size_remark = std::move(made.size_remark);
   surface = std::move(made.candidate.mesh);
   return result;
@@ -225,7 +226,7 @@ SimplifyResult simplify(const SurfaceMesh& mesh, SurfaceMesh& surface, const Sim
 
 SimplifyResult simplify(SurfaceMesh& mesh, const SimplifyOptions& options, const Progress& progress) {
   SurfaceMesh surface;
-  const SimplifyResult result = simplify(mesh, surface, options, progress);
+  SimplifyResult result = simplify(mesh, surface, options, progress);
   mesh = std::move(surface);
   return result;
 }
