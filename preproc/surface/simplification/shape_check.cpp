@@ -78,8 +78,9 @@ class ShapeCheck {
 
   // Where the other side of the body is so near that elements across it are flat: the angle at the base of the element
   // over a triangle of this size that ends there. Not by the ball of quality/wall_thickness.hpp: behind the vertices
-  // and edges that are asked here no ball touches from inside. Asked inside the triangles instead it found other walls,
-  // and the surfaces that were then made of 97 meshes of libcgal-demo allowed 1 % less and had 5 % more elements.
+  // and edges that are asked here no ball touches from inside. Asked inside the triangles instead it found other walls
+  // on 34 of the 97 closed meshes of libcgal-demo: in the mean of all their surfaces allowed 1 % less, with 5 % more
+  // elements.
   double wall_angle(const Vec3& place, const Vec3& outward, double edge, std::uint32_t f) const {
     const double depth = deepest_wall / 2 * edge;
     const Vec3 inside = place - depth * outward;
