@@ -115,7 +115,7 @@ void describe(const TetrahedralizeResult& result, StageRecord& record) {
                     {"surface_allows_scaled_jacobian", result.bound.scaled_jacobian}};
   record.remarks = {"the surface bounds the dihedral angle at " + coordinates(result.bound.min_dihedral_at),
                     "and the scaled Jacobian at " + coordinates(result.bound.scaled_jacobian_at)};
-  if (result.optimised.stopped_by_time) record.remarks.push_back("the time limit ended the optimisation early");
+  if (result.optimised.stopped_by_time) record.remarks.emplace_back("the time limit ended the optimisation early");
 }
 
 // What was gained, and the same figures of the mesh that stands now as of the first.

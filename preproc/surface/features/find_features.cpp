@@ -80,7 +80,8 @@ std::vector<CreaseEdge> crease_edges(const SurfaceMesh& scan, const std::vector<
 
 Features find_features(const SurfaceMesh& scan, const FeatureOptions& options) {
   const MeshAdjacency adjacency(scan);
-  const auto& [stars, neighbours] = adjacency;
+  const VertexStars& stars = adjacency.stars;
+  const std::vector<Triangle>& neighbours = adjacency.neighbours;
   Features result;
   result.noise = estimate_noise(scan, adjacency);
   if (!options.angle_deg) return result;

@@ -67,7 +67,8 @@ struct FarPoints {
 // Raises the deviation of the faces to which the points belong.
 void attribute(const FarPoints& far, const SurfaceMesh& mesh, double edge, std::vector<double>& deviation) {
   const MeshAdjacency adjacency(mesh);
-  const auto& [stars, neighbours] = adjacency;
+  const VertexStars& stars = adjacency.stars;
+  const std::vector<Triangle>& neighbours = adjacency.neighbours;
   const std::vector<Vec3> normals = face_normals(mesh);
   const WalkableMesh on{mesh, stars, neighbours, normals};
   const std::vector<std::uint32_t> start = nearest_vertices(far.points, far.normals, mesh, edge);

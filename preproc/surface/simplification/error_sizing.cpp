@@ -38,7 +38,8 @@ std::vector<double> averaged(const SurfaceMesh& mesh, const std::vector<double>&
 std::vector<double> error_factors(const SurfaceMesh& mesh, const ReferenceSurface& scan, double exponent,
                                   double least) {
   const MeshAdjacency adjacency(mesh);
-  const auto& [stars, neighbours] = adjacency;
+  const VertexStars& stars = adjacency.stars;
+  const std::vector<Triangle>& neighbours = adjacency.neighbours;
   const std::vector<Vec3> normals = face_normals(mesh);
   const WalkableMesh on{mesh, stars, neighbours, normals};
   const double edge = scan.mean_edge(mesh.triangles.size());

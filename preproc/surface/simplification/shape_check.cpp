@@ -35,11 +35,11 @@ class ShapeCheck {
       const auto& [a, b, c] = mesh_.triangles[f];
       const Vec3 &p = mesh_.vertices[a], &q = mesh_.vertices[b], &r = mesh_.vertices[c];
       const double longest = std::max({(q - p).norm(), (r - q).norm(), (p - r).norm()});
-      double least = wall_angle(f);
+      double angle = wall_angle(f);
       for (std::uint32_t k = 0; k < 3; ++k)
-        least = std::min({least, corner_angle(f, k, longest, found), half_wedge(f, k)});
-      found.least_angle_deg = std::min(found.least_angle_deg, least);
-      if (least < least_angle_deg) found.bad.push_back(shorter_edges((p + q + r) / 3, longest, least, least_angle_deg));
+        angle = std::min({angle, corner_angle(f, k, longest, found), half_wedge(f, k)});
+      found.least_angle_deg = std::min(found.least_angle_deg, angle);
+      if (angle < least_angle_deg) found.bad.push_back(shorter_edges((p + q + r) / 3, longest, angle, least_angle_deg));
     }
     return found;
   }
