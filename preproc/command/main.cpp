@@ -56,6 +56,7 @@ int run_command(int argc, char** argv) {
 }  // namespace
 }  // namespace scan2fea::command
 
+// NOLINTNEXTLINE(bugprone-exception-escape): what is caught nowhere is a bug, and ends the process.
 int main(int argc, char** argv) {
   scan2fea::command::restart_with_huge_pages(argv);
   try {
