@@ -10,8 +10,6 @@
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 
-#include <algorithm>
-#include <atomic>
 #include <cstddef>
 #include <exception>
 #include <mutex>
@@ -20,27 +18,26 @@
 
 namespace tbb {
 
-// Four threads also where there are two cores, unless a test asks for one.
+// Four threads also where there are fewer cores, unless a test asks for one. Each has its share fixed beforehand: were
+// shares taken as threads come, one would often be through before the next has begun, and no race would be seen.
 template <class Index, class Body>
 void parallel_for(Index first, Index last, const Body& body) {
-  std::atomic<Index> next = first;
+  const bool alone = global_control::active_value(global_control::max_allowed_parallelism) == 1;
+  const Index threads = alone ? 1 : 4;
   std::exception_ptr failure;
   std::mutex failing;
-  const auto work = [&] {
-    // Relaxed, so that the counter itself puts no order between the threads, which would hide races.
-    for (Index i; (i = next.fetch_add(1, std::memory_order_relaxed)) < last;) try {
-        body(i);
-      } catch (...) {
-        const std::scoped_lock lock(failing);
-        failure = std::current_exception();
-        next = last;
-      }
+  const auto work = [&](Index offset) {
+    try {
+      for (Index i = first + offset; i < last; i += threads) body(i);
+    } catch (...) {
+      const std::scoped_lock lock(failing);
+      failure = std::current_exception();
+    }
   };
-  std::vector<std::thread> threads;
-  if (global_control::active_value(global_control::max_allowed_parallelism) > 1)
-    for (int k = 0; k < 3 && first + k + 1 < last; ++k) threads.emplace_back(work);
-  work();
-  for (std::thread& thread : threads) thread.join();
+  std::vector<std::thread> others;
+  for (Index offset = 1; offset < threads && first + offset < last; ++offset) others.emplace_back(work, offset);
+  work(0);
+  for (std::thread& thread : others) thread.join();
   if (failure) std::rethrow_exception(failure);
 }
 
