@@ -10,6 +10,8 @@
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <exception>
 #include <mutex>
@@ -18,26 +20,27 @@
 
 namespace tbb {
 
-// Four threads also where there are fewer cores, unless a test asks for one. Each has its share fixed beforehand: were
-// shares taken as threads come, one would often be through before the next has begun, and no race would be seen.
+// Four threads also where there are two cores, unless a test asks for one.
 template <class Index, class Body>
 void parallel_for(Index first, Index last, const Body& body) {
-  const bool alone = global_control::active_value(global_control::max_allowed_parallelism) == 1;
-  const Index threads = alone ? 1 : 4;
+  std::atomic<Index> next = first;
   std::exception_ptr failure;
   std::mutex failing;
-  const auto work = [&](Index offset) {
-    try {
-      for (Index i = first + offset; i < last; i += threads) body(i);
-    } catch (...) {
-      const std::scoped_lock lock(failing);
-      failure = std::current_exception();
-    }
+  const auto work = [&] {
+    // Relaxed, so that the counter itself puts no order between the threads, which would hide races.
+    for (Index i; (i = next.fetch_add(1, std::memory_order_relaxed)) < last;) try {
+        body(i);
+      } catch (...) {
+        const std::scoped_lock lock(failing);
+        failure = std::current_exception();
+        next = last;
+      }
   };
-  std::vector<std::thread> others;
-  for (Index offset = 1; offset < threads && first + offset < last; ++offset) others.emplace_back(work, offset);
-  work(0);
-  for (std::thread& thread : others) thread.join();
+  std::vector<std::thread> threads;
+  if (global_control::active_value(global_control::max_allowed_parallelism) > 1)
+    for (int k = 0; k < 3 && first + k + 1 < last; ++k) threads.emplace_back(work);
+  work();
+  for (std::thread& thread : threads) thread.join();
   if (failure) std::rethrow_exception(failure);
 }
 
