@@ -138,6 +138,22 @@ void need_nodes_in_walls(TetrahedralizeOptions& options) {
     options.interior_size.value = std::min(options.interior_size.value, of_surface);
 }
 
+// Where a mesh is no use to any solver there is none; but who asks for the paper's collapse gets its needles, too, and
+// is told.
+std::vector<WeakPlace> checked_for_solvers(const SurfaceMesh& surface, const TetMesh* volume_mesh,
+                                           const SurfaceMesh& scan, const SimplifyOptions& simplification) {
+  std::vector<WeakPlace> places = find_weak_places(surface, volume_mesh, scan);
+  const bool is_told_only = volume_mesh == nullptr && simplification.method == SimplifyMethod::collapse;
+  for (const WeakPlace& place : places)
+    if (place.is_unusable && !is_told_only)
+      throw NotMeshable({.what = "no solver takes the mesh that came out: " + place.what,
+                         .where = coordinates(place.at),
+                         .value = std::to_string(place.value),
+                         .limit = "half a degree",
+                         .advice = "smaller triangles (--deviation, --faces), or --feature-angle off"});
+  return places;
+}
+
 }  // namespace
 
 PipelineResult run_pipeline(SurfaceMesh scan, const PipelineOptions& options, const Progress& progress,
@@ -158,9 +174,11 @@ PipelineResult run_pipeline(SurfaceMesh scan, const PipelineOptions& options, co
     });
   const SurfaceMesh& dense = options.enrich ? enriched : result.scan;
   FilledSurface made;
+  std::optional<Simplification> search;
   if (options.simplify)
     log.run("simplify", [&](StageRecord& record) {
-      made.simplified = simplify(dense, made.surface, simplification, progress);
+      search.emplace(dense, simplification);
+      made.simplified = search->run(made.surface, progress);
       describe(made.simplified, simplification.size, record);
     });
   else
@@ -174,11 +192,15 @@ PipelineResult run_pipeline(SurfaceMesh scan, const PipelineOptions& options, co
     });
     if (options.simplify && worth_renewing(simplification, tetrahedralization, made))
       log.run("renewal", [&](StageRecord& record) {
-        RenewalResult renewal = renew_where_poor(dense, simplification, tetrahedralization, std::move(made), progress);
+        RenewalResult renewal =
+            renew_where_poor(*search, simplification, tetrahedralization, std::move(made), progress);
         describe(renewal, record);
         made = std::move(renewal.made);
       });
   }
+  if (options.simplify || options.tetrahedralize)
+    result.weak_places = checked_for_solvers(made.surface, options.tetrahedralize ? &made.filled.mesh : nullptr,
+                                             result.scan, simplification);
   result.surface = std::move(made.surface);
   result.features = std::move(made.simplified.features);
   if (options.tetrahedralize) {

@@ -8,6 +8,7 @@
 #include "preproc/surface/repair/repair.hpp"
 #include "preproc/surface/simplification/simplify.hpp"
 #include "preproc/volume/tetrahedralize.hpp"
+#include "preproc/weak_places.hpp"
 
 #include <cstdint>
 #include <functional>
@@ -42,12 +43,14 @@ struct PipelineResult {
   FeatureLines features;  // the scan's edges that simplification was to keep
   std::optional<TetMesh> volume_mesh;
   std::vector<StageRecord> stages;
+  std::vector<WeakPlace> weak_places;  // of what was made; none of them is unusable
 };
 
 // Called after each stage.
 using StageListener = std::function<void(const StageRecord&)>;
 
-// Throws what the stages throw: NotMeshable, MeshingFailed, WrongUsage, Cancelled.
+// Throws what the stages throw: NotMeshable, MeshingFailed, WrongUsage, Cancelled; and NotMeshable where what came out
+// is unusable (see weak_places.hpp).
 PipelineResult run_pipeline(SurfaceMesh scan, const PipelineOptions& options = {}, const Progress& progress = {},
                             const StageListener& listener = {});
 

@@ -6,6 +6,7 @@
 #include "quality/tetrahedron_measures.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace scan2fea {
@@ -43,13 +44,11 @@ bool can_be_mended(const std::vector<PoorElement>& poor, const FilledSurface& ma
                                         many_poor * static_cast<double>(made.filled.mesh.tetrahedra.size()));
 }
 
-// Edges shorter than those that the elements' surroundings had.
-void limit_edges_around(const std::vector<PoorElement>& poor, SizeLimits& limits) {
-  for (const PoorElement& element : poor) {
-    const auto [where, factor] =
-        shorter_edges(element.centre, element.longest_edge, element.min_dihedral_deg, good_deg);
-    limits.balls.push_back({where, factor * element.surface_edge});
-  }
+std::vector<ShorterEdges> shorter_around(const std::vector<PoorElement>& poor) {
+  std::vector<ShorterEdges> places;
+  for (const PoorElement& element : poor)
+    places.push_back(shorter_edges(element.centre, element.longest_edge, element.min_dihedral_deg, good_deg));
+  return places;
 }
 
 }  // namespace
@@ -63,27 +62,25 @@ bool worth_renewing(const SimplifyOptions& simplification, const TetrahedralizeO
   return !is_good(smallest_dihedral(made), made) && can_be_mended(poor_elements(made), made);
 }
 
-RenewalResult renew_where_poor(const SurfaceMesh& scan, const SimplifyOptions& simplification,
+RenewalResult renew_where_poor(Simplification& search, const SimplifyOptions& simplification,
                                const TetrahedralizeOptions& tetrahedralization, FilledSurface made,
                                const Progress& progress) {
   RenewalResult result;
   result.min_dihedral_before_deg = result.min_dihedral_after_deg = smallest_dihedral(made);
   const int most_rounds = simplification.effort == Effort::high ? 6 : 3;
   const double most = std::max(most_growth * static_cast<double>(made.surface.triangles.size()), most_of_small);
-  SimplifyOptions finer = simplification;
   FilledSurface latest = made;
   result.made = std::move(made);
   while (result.rounds < most_rounds && !is_good(result.min_dihedral_after_deg, result.made)) {
     const std::vector<PoorElement> poor = poor_elements(latest);
     if (!can_be_mended(poor, latest)) break;
-    limit_edges_around(poor, finer.limits);
+    const std::optional<SimplifyResult> simplified =
+        search.run_again(shorter_around(poor), most, latest.surface, progress);
+    if (!simplified) break;
     ++result.rounds;
     try {
-      latest.simplified = simplify(scan, latest.surface, finer, progress);
-      if (static_cast<double>(latest.surface.triangles.size()) > most) break;
+      latest.simplified = *simplified;
       latest.filled = tetrahedralize(latest.surface, tetrahedralization, progress);
-    } catch (const NotMeshable&) {
-      break;
     } catch (const MeshingFailed&) {
       break;
     }

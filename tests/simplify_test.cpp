@@ -103,7 +103,7 @@ TEST(Simplify, AsksForNoLessThanTheTopologyNeeds) {
   SurfaceMesh mesh = scan;
   const SimplifyResult result = simplify_to(mesh, FaceCount{20});
   EXPECT_GT(mesh.triangles.size(), 20U);
-  EXPECT_FALSE(result.fallback_reason.empty());
+  EXPECT_FALSE(result.size_remark.empty());
   EXPECT_TRUE(check_validity(mesh).closed());
   EXPECT_EQ(check_validity(mesh).genus, 5);
   EXPECT_TRUE(find_self_intersections(mesh).empty());

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
+
 namespace scan2fea {
 namespace {
 
@@ -21,12 +23,14 @@ struct Chain {
   SurfaceMesh scan;
   SimplifyOptions simplification;
   TetrahedralizeOptions tetrahedralization;
+  std::optional<Simplification> search;
   FilledSurface made;
 
   explicit Chain(SurfaceMesh of, double ratio) : scan(std::move(of)) {
     simplification.size = FaceRatio{ratio};
     simplification.for_tetrahedra = true;
-    made.simplified = simplify(scan, made.surface, simplification);
+    search.emplace(scan, simplification);
+    made.simplified = search->run(made.surface);
     made.filled = tetrahedralize(made.surface, tetrahedralization);
   }
   bool worth() const { return worth_renewing(simplification, tetrahedralization, made); }
@@ -36,7 +40,8 @@ TEST(TetrahedraSearch, MendsElementsInAThinWall) {
   Chain chain(uneven_shell(), 0.25);
   ASSERT_TRUE(chain.worth());
   const double before = measure_tetrahedra(chain.made.filled.mesh).min_dihedral_deg;
-  const RenewalResult result = renew_where_poor(chain.scan, chain.simplification, chain.tetrahedralization, chain.made);
+  const RenewalResult result =
+      renew_where_poor(*chain.search, chain.simplification, chain.tetrahedralization, chain.made);
   const TetSummary after = measure_tetrahedra(result.made.filled.mesh);
   EXPECT_TRUE(result.gained());
   EXPECT_EQ(result.min_dihedral_before_deg, before);

@@ -8,6 +8,8 @@
 #include "preproc/mesh/write_surface.hpp"
 #include "preproc/surface/features/feature_file.hpp"
 
+#include <cstdio>
+
 namespace scan2fea::command {
 namespace {
 
@@ -72,6 +74,10 @@ int make_mesh(MakeMeshJob job) {
   if (job.pipeline.simplify) job.pipeline.simplify->size = job.size.target();
   if (job.enrich) job.pipeline.enrich = job.enrich_options;
   const PipelineResult result = run_naming_input(std::move(scan), job, display);
+
+  for (const WeakPlace& place : result.weak_places)
+    std::fprintf(stderr, "scan2fea: warning: %s: %s; a solver may refuse it\n", job.common.input.c_str(),
+                 place.describe().c_str());
 
   const bool figures_wanted = !job.common.quiet || job.common.json || job.common.report || !gates.empty();
   if (figures_wanted) {

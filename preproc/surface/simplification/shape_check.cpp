@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 namespace scan2fea {
 namespace {
@@ -22,12 +23,13 @@ constexpr double flat = 0.7;
 
 class ShapeCheck {
  public:
-  explicit ShapeCheck(const Candidate& candidate)
+  ShapeCheck(const Candidate& candidate, bool with_walls)
       : mesh_(candidate.mesh),
-        tree_(candidate.mesh),
         neighbours_(face_neighbours(candidate.mesh, VertexStars(candidate.mesh))),
         normals_(vertex_normals(candidate.mesh)),
-        creases_(edges_of(candidate.net)) {}
+        creases_(edges_of(candidate.net)) {
+    if (with_walls) tree_.emplace(mesh_);
+  }
 
   ShapeDefects defects() const {
     ShapeDefects found;
@@ -35,7 +37,7 @@ class ShapeCheck {
       const auto& [a, b, c] = mesh_.triangles[f];
       const Vec3 &p = mesh_.vertices[a], &q = mesh_.vertices[b], &r = mesh_.vertices[c];
       const double longest = std::max({(q - p).norm(), (r - q).norm(), (p - r).norm()});
-      double angle = wall_angle(f);
+      double angle = tree_ ? wall_angle(f) : 180;
       for (std::uint32_t k = 0; k < 3; ++k)
         angle = std::min({angle, corner_angle(f, k, longest, found), half_wedge(f, k)});
       found.least_angle_deg = std::min(found.least_angle_deg, angle);
@@ -84,7 +86,7 @@ class ShapeCheck {
   double wall_angle(const Vec3& place, const Vec3& outward, double edge, std::uint32_t f) const {
     const double depth = deepest_wall / 2 * edge;
     const Vec3 inside = place - depth * outward;
-    const ClosestPoint nearest = tree_.closest(inside, f);
+    const ClosestPoint nearest = tree_->closest(inside, f);
     const double distance = std::sqrt(nearest.squared_distance);
     const Triangle& other = mesh_.triangles[nearest.triangle];
     const Vec3 opposite = area_vector(mesh_, other);
@@ -119,7 +121,7 @@ class ShapeCheck {
   }
 
   const SurfaceMesh& mesh_;
-  TriangleTree tree_;
+  std::optional<TriangleTree> tree_;
   std::vector<Triangle> neighbours_;
   std::vector<Vec3> normals_;
   std::vector<FeatureEdge> creases_;
@@ -127,8 +129,8 @@ class ShapeCheck {
 
 }  // namespace
 
-ShapeDefects find_shape_defects(const Candidate& candidate) {
-  return ShapeCheck(candidate).defects();
+ShapeDefects find_shape_defects(const Candidate& candidate, bool with_walls) {
+  return ShapeCheck(candidate, with_walls).defects();
 }
 
 }  // namespace scan2fea

@@ -22,7 +22,8 @@ struct ShapeDefects {
 };
 
 // Bad are triangles with angles below 30 degrees, folds whose half is sharper, and walls across which elements would
-// have less than 25; corners between two creases only below 19. O(n log n): three searches a triangle.
-ShapeDefects find_shape_defects(const Candidate& candidate);
+// have less than 25, where `with_walls`; corners between two creases only below 19. O(n); with walls O(n log n), three
+// searches a triangle.
+ShapeDefects find_shape_defects(const Candidate& candidate, bool with_walls);
 
 }  // namespace scan2fea

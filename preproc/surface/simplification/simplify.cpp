@@ -5,10 +5,7 @@
 #include "preproc/surface/features/match_features.hpp"
 #include "preproc/surface/features/scan_noise.hpp"
 #include "preproc/surface/kernel/adjacency.hpp"
-#include "preproc/surface/simplification/deviation_search.hpp"
-#include "preproc/surface/simplification/error_sizing.hpp"
-#include "preproc/surface/simplification/shape_search.hpp"
-#include "preproc/surface/simplification/surface_candidate.hpp"
+#include "preproc/surface/simplification/surface_search.hpp"
 #include "preproc/surface/sizing/split_long_edges.hpp"
 #include "quality/triangle_measures.hpp"
 
@@ -36,9 +33,12 @@ constexpr double triangles_of_small_part = 4000;
 constexpr double curve_tolerance = 0.00014;
 constexpr double noise_on_curves = 1.5;
 
-// Exponent of the local error in the edge lengths' renewal (see error_factors). Equal errors everywhere would take 0.5;
-// less leaves shape to the gradation.
-constexpr double error_renewal = 0.3;
+// How far chords of the result may be from the scan's creases and borders, over the deviation: the mending of places
+// leaves them as they are.
+constexpr double curves_over_deviation = 0.9;
+
+// Edge length of a result, over its deviation, about; see lengths_for_deviation.
+constexpr double edge_over_deviation = 12;
 
 void require_positive(double value, const char* what) {
   if (!(value > 0) || !std::isfinite(value))
@@ -47,11 +47,6 @@ void require_positive(double value, const char* what) {
                       .value = std::to_string(value),
                       .limit = {},
                       .advice = {}});
-}
-
-// A deviation far below the scan's own facets asks for more; nothing is known there.
-double most_triangles_of(const SurfaceMesh& scan) {
-  return 32 * static_cast<double>(scan.triangles.size());
 }
 
 double wanted_faces(const TargetSize& size, const SurfaceMesh& scan, double area) {
@@ -73,7 +68,8 @@ double wanted_faces(const TargetSize& size, const SurfaceMesh& scan, double area
 double typical_edge(const TargetSize& size, const SurfaceMesh& scan, double area) {
   if (const auto* bound = std::get_if<LargestDeviation>(&size)) {
     require_positive(bound->distance, "the deviation");
-    return std::max(first_edge_over_deviation * bound->distance, equilateral_edge(area, most_triangles_of(scan)));
+    return std::max(edge_over_deviation * bound->distance,
+                    equilateral_edge(area, SurfaceSearch::most_of_scan * static_cast<double>(scan.triangles.size())));
   }
   return equilateral_edge(area, wanted_faces(size, scan, area));
 }
@@ -110,57 +106,6 @@ std::optional<SurfaceMesh> with_smaller_faces(const SurfaceMesh& mesh, const Sim
   return parted;
 }
 
-// A surface, and where it has more triangles than were asked for, why.
-struct MadeSurface {
-  Candidate candidate;
-  std::string size_remark;
-};
-
-// Lowers the lengths that the sizing asks for, and asks for those. Keeps a reference to `length`. Returns a remark
-// where they need more triangles.
-std::string keep_within(const PreparedScan& scan, const std::vector<double>& longest, const SimplifyOptions& options,
-                        SizingOptions& sizing, std::vector<double>& length) {
-  const double wanted = sizing.triangles;
-  const bool keeps_count = !std::holds_alternative<MeanEdgeLength>(options.size);
-  length = within_limits(scan.mesh, scan.wanted_lengths(sizing), longest, options.gradation,
-                         keeps_count ? std::optional(wanted) : std::nullopt);
-  ask_for_lengths(scan.mesh, length, sizing);
-  if (!keeps_count || sizing.triangles <= 1.01 * wanted) return {};
-  return "boxes, balls and elements across walls need about " + std::to_string(std::lround(sizing.triangles)) +
-         " triangles instead of " + std::to_string(std::lround(wanted));
-}
-
-MadeSurface make_surface_of(double triangles, PreparedScanPointer scan, const std::vector<double>& longest,
-                            const SimplifyOptions& options, const Progress& progress) {
-  SizingOptions sizing;
-  sizing.triangles = triangles;
-  sizing.sizing = options.sizing;
-  sizing.gradation = options.gradation;
-  std::vector<double> factors, length;
-  if (options.sizing == Sizing::error) {
-    // A quick first surface shows where edges of the curvature's lengths come too far from the scan.
-    sizing.sizing = Sizing::curvature;
-    const Candidate first = make_surface(scan, sizing, options, Effort::low, progress);
-    scan = first.scan;  // creases that it could not keep are not asked for again
-    factors = scan->by_vertex(error_factors(first.mesh, scan->reference(), error_renewal),
-                              [](double a, double b) { return std::min(a, b); });
-    sizing.factors = factors;
-  }
-  MadeSurface made;
-  if (!longest.empty()) made.size_remark = keep_within(*scan, longest, options, sizing, length);
-  if (options.for_tetrahedra) {
-    made.candidate = make_shaped_surface(scan, sizing, options, progress);
-  } else {
-    made.candidate = make_surface(scan, sizing, options, options.effort, progress);
-    if (made.candidate.method == SimplifyMethod::lattice) lower_worst(made.candidate, options.effort, progress);
-  }
-  if (static_cast<double>(made.candidate.faces()) > 1.01 * sizing.triangles + 1)
-    made.size_remark = "triangles of the wanted size cannot be well shaped everywhere: made " +
-                       std::to_string(made.candidate.faces()) + " instead of " +
-                       std::to_string(std::lround(sizing.triangles));
-  return made;
-}
-
 // What became of the creases that were to be kept.
 std::string feature_remark(std::size_t wanted, std::size_t kept) {
   if (kept >= wanted) return {};
@@ -186,47 +131,82 @@ TargetSize in_model_units(const TargetSize& size, const BoundingBox& scan) {
   return LargestDeviation{.distance = bound->distance * scan.diagonal(), .required = bound->required};
 }
 
-SimplifyResult simplify(const SurfaceMesh& scan, SurfaceMesh& surface, const SimplifyOptions& options,
-                        const Progress& progress) {
-  check_options(options);
-  const TargetSize size = in_model_units(options.size, bounding_box(scan.vertices));
-  const double area = surface_area(scan);
-  const double edge = typical_edge(size, scan, area);
-  Features features = features_of(scan, options);
-  SimplifyResult result;
-  result.faces_before = scan.triangles.size();
-  result.feature_edges = features.edges.size();
-  result.features = lines_of(scan, features.edges);
+// What is kept from one surface to the next.
+struct Simplification::State {
+  SimplifyOptions options;
+  SimplifyResult of_scan;             // what is known before any surface is made
+  std::optional<SurfaceMesh> parted;  // the scan with smaller faces, where it has large ones
+  std::size_t wanted_creases = 0;
+  double wanted_triangles = 0;  // 0 where the size is a deviation
+  std::optional<SurfaceSearch> search;
 
-  if (!options.given_features) features.edges = select_features(scan, std::move(features.edges), edge);
-  const CurveTolerance tolerance = tolerance_of_curves(scan, size, features.noise);
-  const std::optional<SurfaceMesh> parted = with_smaller_faces(scan, options, area, edge, features.edges);
-  const auto prepared =
-      std::make_shared<const PreparedScan>(parted ? *parted : scan, std::move(features.edges), tolerance);
-  std::vector<double> longest;
-  if (!options.limits.empty()) longest = longest_edges(prepared->mesh, options.limits, longest_edge_of_part * edge);
-  const auto* bound = std::get_if<LargestDeviation>(&size);
-  MadeSurface made =
-      bound != nullptr
-          ? MadeSurface{make_surface_within(prepared, *bound, most_triangles_of(scan), longest, options, progress), {}}
-          : make_surface_of(wanted_faces(size, scan, area), prepared, longest, options, progress);
+  SimplifyResult result(Candidate candidate, SurfaceMesh& surface) const;
+};
 
-  const Candidate& candidate = made.candidate;
+SimplifyResult Simplification::State::result(Candidate candidate, SurfaceMesh& surface) const {
+  SimplifyResult result = of_scan;
   result.method = candidate.method;
   result.fallback_reason = candidate.fallback_reason;
   result.faces_after = candidate.faces();
   result.crossings_mended = candidate.crossings_mended;
   result.largest_deviation = candidate.largest_deviation;
   result.feature_edges_kept = candidate.feature_edges();
-  result.feature_remark = feature_remark(prepared->creases().size(), candidate.scan->creases().size());
-  result.size_remark = std::move(made.size_remark);
-  surface = std::move(made.candidate.mesh);
+  result.feature_remark = feature_remark(wanted_creases, candidate.scan->creases().size());
+  result.size_remark = search->size_remark();
+  const double made = static_cast<double>(candidate.faces());
+  if (wanted_triangles > 0 && made > 1.01 * search->wanted_triangles() + 1)
+    result.size_remark = "triangles of the wanted size cannot be well shaped everywhere: made " +
+                         std::to_string(candidate.faces()) + " instead of " +
+                         std::to_string(std::lround(wanted_triangles));
+  surface = std::move(candidate.mesh);
   return result;
+}
+
+Simplification::Simplification(const SurfaceMesh& scan, const SimplifyOptions& options)
+    : state_(std::make_unique<State>()) {
+  check_options(options);
+  State& state = *state_;
+  state.options = options;
+  const TargetSize size = in_model_units(options.size, bounding_box(scan.vertices));
+  const double area = surface_area(scan);
+  const double edge = typical_edge(size, scan, area);
+  Features features = features_of(scan, options);
+  state.of_scan.faces_before = scan.triangles.size();
+  state.of_scan.feature_edges = features.edges.size();
+  state.of_scan.features = lines_of(scan, features.edges);
+
+  if (!options.given_features) features.edges = select_features(scan, std::move(features.edges), edge);
+  const CurveTolerance tolerance = tolerance_of_curves(scan, size, features.noise);
+  state.parted = with_smaller_faces(scan, options, area, edge, features.edges);
+  state.wanted_creases = features.edges.size();
+  const auto prepared =
+      std::make_shared<const PreparedScan>(state.parted ? *state.parted : scan, std::move(features.edges), tolerance);
+  WantedSurface wanted;
+  if (const auto* bound = std::get_if<LargestDeviation>(&size))
+    wanted.deviation = *bound;
+  else
+    wanted.triangles = state.wanted_triangles = wanted_faces(size, scan, area);
+  if (!options.limits.empty())
+    wanted.longest = longest_edges(prepared->mesh, options.limits, longest_edge_of_part * edge);
+  state.search.emplace(prepared, std::move(wanted), state.options);
+}
+
+Simplification::~Simplification() = default;
+
+SimplifyResult Simplification::run(SurfaceMesh& surface, const Progress& progress) {
+  return state_->result(state_->search->run(progress), surface);
+}
+
+std::optional<SimplifyResult> Simplification::run_again(std::span<const ShorterEdges> places, double most_triangles,
+                                                        SurfaceMesh& surface, const Progress& progress) {
+  std::optional<Candidate> made = state_->search->run_again(places, most_triangles, progress);
+  if (!made) return {};
+  return state_->result(std::move(*made), surface);
 }
 
 SimplifyResult simplify(SurfaceMesh& mesh, const SimplifyOptions& options, const Progress& progress) {
   SurfaceMesh surface;
-  SimplifyResult result = simplify(mesh, surface, options, progress);
+  SimplifyResult result = Simplification(mesh, options).run(surface, progress);
   mesh = std::move(surface);
   return result;
 }

@@ -6,6 +6,11 @@
 #include "preproc/mesh/progress.hpp"
 #include "preproc/mesh/surface_mesh.hpp"
 #include "preproc/surface/simplification/simplify_options.hpp"
+#include "preproc/surface/sizing/shorter_edges.hpp"
+
+#include <memory>
+#include <optional>
+#include <span>
 
 namespace scan2fea {
 
@@ -18,8 +23,25 @@ namespace scan2fea {
 // that a deviation which is possible is reached, or with the fewest triangles.
 SimplifyResult simplify(SurfaceMesh& mesh, const SimplifyOptions& options = {}, const Progress& progress = {});
 
-// The same for those who need the scan afterwards, to compare with: a copy of it less.
-SimplifyResult simplify(const SurfaceMesh& scan, SurfaceMesh& surface, const SimplifyOptions& options,
-                        const Progress& progress = {});
+// The same for those who need the scan afterwards, to compare with, or who may ask for another surface: a copy of it
+// less.
+class Simplification {
+ public:
+  // Refers to the scan, which must outlive it. Throws WrongUsage for options out of range.
+  Simplification(const SurfaceMesh& scan, const SimplifyOptions& options);
+  ~Simplification();
+
+  // See `simplify`.
+  SimplifyResult run(SurfaceMesh& surface, const Progress& progress = {});
+
+  // After `run`: one more surface, with shorter edges at these places and at most so many triangles. Nothing, and
+  // `surface` as it was, where the budget of the search is spent (see surface_search.hpp) or there is no such surface.
+  std::optional<SimplifyResult> run_again(std::span<const ShorterEdges> places, double most_triangles,
+                                          SurfaceMesh& surface, const Progress& progress = {});
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 
 }  // namespace scan2fea

@@ -20,6 +20,12 @@ namespace {
 // Radii above so many edge lengths count as flat.
 constexpr double flat_radius = 20;
 
+// For a deviation d: h^2 = 7 d / curvature, within 3 to 36 d. A chord of length h leaves a circle of radius r by
+// h^2 / 8 r; a fitted triangle, whose vertices lie beyond the surface, by less. Details narrower than 4 d count as
+// rough, not as bent.
+constexpr double squared_length_over_deviation = 7, shortest_over_deviation = 3, longest_over_deviation = 36;
+constexpr double smoothing_over_deviation = 4;
+
 // What all steps read of the scan.
 struct Scan {
   explicit Scan(const SurfaceMesh& surface) : mesh(surface), areas(surface.vertices.size(), 0.0) {
@@ -148,6 +154,21 @@ std::vector<double> log_length_from_curvature(const Scan& scan, double uniform_l
   return phi;
 }
 
+// Squared curvature of what is left of the surface when details narrower than `width` are smoothed away.
+std::vector<double> squared_curvature_over(const Scan& scan, double width) {
+  constexpr long most_sweeps = 30;  // what is smoother than that has long edges anyway
+  const double edge = equilateral_edge(scan.area, static_cast<double>(scan.mesh.triangles.size()));
+  // Averaging over k rings reaches about sqrt(k) edges.
+  const double rings = std::min(width / edge, std::sqrt(static_cast<double>(most_sweeps)));
+  const int sweeps = static_cast<int>(std::clamp(std::lround(rings * rings), 1L, most_sweeps));
+  std::vector<Vec3> normals = vertex_normals(scan.mesh);
+  average_with_neighbours(scan, normals, sweeps);
+  set_each(normals, [&](std::size_t v) { return Vec3(normals[v].normalized()); });
+  std::vector<double> curvature2 = squared_curvature(scan, normals);
+  average_with_neighbours(scan, curvature2, sweeps);
+  return curvature2;
+}
+
 // h_i <= h_j + gradation |x_i - x_j| along the scan's edges; lengths only fall. Dijkstra from the vertices that bind.
 void limit_gradation(const Scan& scan, double gradation, std::vector<double>& length) {
   using Entry = std::pair<double, std::uint32_t>;
@@ -233,6 +254,27 @@ void ask_for_lengths(const SurfaceMesh& scan, std::span<const double> edge_lengt
 
 void limit_gradation(const SurfaceMesh& scan, double gradation, std::vector<double>& edge_length) {
   limit_gradation(Scan(scan), gradation, edge_length);
+}
+
+std::vector<double> lengths_for_deviation(const SurfaceMesh& mesh, double deviation, double gradation,
+                                          const CutSurface* cut) {
+  std::vector<double> curvature2(mesh.vertices.size(), 0.0);
+  if (cut) {
+    const std::vector<double> of_copy = squared_curvature_over(Scan(cut->mesh), smoothing_over_deviation * deviation);
+    for (std::size_t v = 0; v < of_copy.size(); ++v) {
+      double& largest = curvature2[cut->vertex_of_copy[v]];
+      largest = std::max(largest, of_copy[v]);
+    }
+  } else {
+    curvature2 = squared_curvature_over(Scan(mesh), smoothing_over_deviation * deviation);
+  }
+  std::vector<double> length(curvature2.size());
+  set_each(length, [&](std::size_t v) {
+    const double wanted = std::sqrt(squared_length_over_deviation * deviation / std::sqrt(curvature2[v]));
+    return std::clamp(wanted, shortest_over_deviation * deviation, longest_over_deviation * deviation);
+  });
+  limit_gradation(mesh, gradation, length);
+  return length;
 }
 
 SizingField compute_sizing_field(const SurfaceMesh& mesh, const SizingOptions& options, const CutSurface* cut) {

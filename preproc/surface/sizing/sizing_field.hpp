@@ -54,6 +54,12 @@ double predicted_triangles(const SurfaceMesh& scan, const SizingField& field);
 SizingField compute_sizing_field(const SurfaceMesh& scan, const SizingOptions& options,
                                  const CutSurface* cut = nullptr);
 
+// Per vertex of the scan, the edge lengths with which a fitted surface comes about within `deviation` (model units) of
+// it almost everywhere, by its curvature; see compute_sizing_field for `cut`. Not guaranteed: that it does, or that
+// longer ones would not do. O(n log n); parallel.
+std::vector<double> lengths_for_deviation(const SurfaceMesh& scan, double deviation, double gradation,
+                                          const CutSurface* cut = nullptr);
+
 // Asks for these lengths, and for the number of triangles that they give. Keeps a reference to them.
 void ask_for_lengths(const SurfaceMesh& scan, std::span<const double> edge_length, SizingOptions& options);
 

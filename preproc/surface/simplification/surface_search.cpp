@@ -1,0 +1,324 @@
+#include "preproc/surface/simplification/surface_search.hpp"
+
+#include "preproc/mesh/error.hpp"
+#include "preproc/surface/features/feature_selection.hpp"
+#include "preproc/surface/fit/preserve_volume.hpp"
+#include "preproc/surface/mending/local_refinement.hpp"
+#include "preproc/surface/simplification/deviation_at_scan.hpp"
+#include "preproc/surface/simplification/error_sizing.hpp"
+#include "preproc/surface/sizing/size_limits.hpp"
+#include "quality/deviation_bound.hpp"
+#include "quality/triangle_measures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace scan2fea {
+namespace {
+
+// Of triangles, over those of the first surface, that all together may be made.
+constexpr double most_work = 12;
+// A small part may cost so many whatever the first surface had: they cost nothing.
+constexpr double work_for_small = 20000;
+
+// In one surface, over those that were wanted. A small part may have 8,000, but not more than forty times as many: who
+// asks for 20 does not want 8,000.
+constexpr double most_growth = 3, few_triangles = 8000, most_growth_of_small = 40;
+
+// Tries without a gain, one after the other, after which it is given up. Another lattice may turn out better by chance,
+// which is worth waiting for only where it costs little.
+constexpr std::size_t many_triangles = 5000, very_many_triangles = 20000;
+int patience(std::size_t triangles) {
+  return triangles < many_triangles ? 3 : triangles < very_many_triangles ? 1 : 0;
+}
+
+// Two lattices of nearly the same sizes differ by about this; a smaller gain is chance.
+constexpr double worth_it_deg = 0.5;
+
+// Above many_triangles only surfaces below this are made again: where time matters, the optimisation of the tetrahedra
+// copes with the rest.
+constexpr double good_of_many_deg = 17;
+
+// With more bad triangles than this the size as a whole is wrong, not places.
+constexpr double share_of_many = 0.1;
+
+// Wanted with fewer triangles than this, a part without its edges stands for nothing any more: edges go before angles.
+constexpr double few_triangles_of_part = 1000;
+
+// The share of faces too far that is left to the mending of places: more are cheaper mended by other lengths, all at
+// once. The second is for the last surface, when there is no other way.
+constexpr double few_beyond = 0.06, most_beyond = 0.15;
+
+// Where triangles as large as the deviation allows are too large for the part's edges, smaller ones keep their shape.
+// The bound is where isotropic remeshing with kept edges ends (CGAL: 1.18 to 1.21 on plates, cubes and cylinders).
+constexpr double worst_mean_edge_ratio = 1.19;
+
+// Around bad places edge lengths may grow this many times as fast as elsewhere: at the surface's own gradation a few
+// short edges would drag those of a whole neighbourhood along.
+constexpr double gradation_around_bad = 2;
+
+// Where the shorter lengths ask for fewer triangles more than this, the other edges grow to make up for them.
+constexpr double room_for_places = 1.05;
+
+// Exponent of the local error in the edge lengths' renewal (see error_factors). Equal errors everywhere would take 0.5;
+// less leaves shape to the gradation.
+constexpr double error_renewal = 0.3;
+
+double share_beyond(const OneSidedDeviation& side, double distance) {
+  const auto beyond = std::count_if(side.upper.begin(), side.upper.end(), [&](double d) { return d > distance; });
+  return static_cast<double>(beyond) / static_cast<double>(side.upper.size());
+}
+
+// Shorter edges where the deviation is too large; it goes with their square.
+void shorten_by_deviation(const std::vector<double>& deviation, double distance, std::vector<double>& length) {
+  constexpr double margin = 0.8;         // of the distance, aimed at
+  constexpr double shortest_edge = 0.5;  // over the distance: shorter ones help nothing
+  for (std::size_t v = 0; v < length.size(); ++v) {
+    const double ratio = std::sqrt(margin * distance / std::max(deviation[v], margin * distance));
+    length[v] = std::max(length[v] * std::max(ratio, most_shortening), std::min(length[v], shortest_edge * distance));
+  }
+}
+
+// What the edge ratio exceeds 1 by is taken to go with the square of the edges; a guess may be wrong.
+double shortening_for_shape(double mean_edge_ratio) {
+  constexpr double aim = 0.01;  // below the worst
+  return std::max(least_shortening, std::sqrt((worst_mean_edge_ratio - aim - 1) / (mean_edge_ratio - 1)));
+}
+
+std::string count(double triangles) {
+  return std::to_string(std::lround(triangles));
+}
+
+}  // namespace
+
+bool SurfaceSearch::Trial::has_many_bad() const {
+  return static_cast<double>(shape.bad.size()) > share_of_many * static_cast<double>(candidate.faces());
+}
+
+SurfaceSearch::SurfaceSearch(PreparedScanPointer scan, WantedSurface wanted, const SimplifyOptions& options)
+    : scan_(std::move(scan)), wanted_(std::move(wanted)), options_(options) {
+  sizing_.triangles = wanted_.triangles;
+  sizing_.sizing = options.sizing;
+  sizing_.gradation = options.gradation;
+}
+
+Candidate SurfaceSearch::run(const Progress& progress) {
+  set_first_sizing(progress);
+  Trial latest = make(progress), best = latest;
+  first_work_ = work_;
+  if (options_.method != SimplifyMethod::lattice) return std::move(best.candidate);
+  for (int in_vain = 0; !is_accepted(latest) && in_vain <= patience(latest.candidate.faces());) {
+    const std::vector<double> length = length_;
+    lower_lengths(latest);
+    if (!ask_for_lower_lengths(most_triangles())) {
+      length_ = length;
+      break;
+    }
+    try {
+      latest = make(progress);
+    } catch (const NotMeshable&) {
+      break;
+    }
+    in_vain = gains(latest, best) ? 0 : in_vain + 1;
+    if (is_better(latest, best)) best = latest;
+  }
+  if (wanted_.deviation && !holds(best) && best.share_beyond <= most_beyond) bring_within(best, progress);
+  if (wanted_.deviation && wanted_.deviation->required && !holds(best))
+    throw NotMeshable({.what = "the deviation was not reached",
+                       .where = {},
+                       .value = std::to_string(best.candidate.largest_deviation) + " with " +
+                                count(static_cast<double>(best.candidate.faces())) + " triangles",
+                       .limit = std::to_string(wanted_.deviation->distance),
+                       .advice = "a larger --deviation, or --faces"});
+  return std::move(best.candidate);
+}
+
+std::optional<Candidate> SurfaceSearch::run_again(std::span<const ShorterEdges> places, double most_triangles,
+                                                  const Progress& progress) {
+  if (length_.empty()) length_ = scan_->wanted_lengths(sizing_);
+  shorten_around(places, scan_->mesh, length_);
+  if (!ask_for_lower_lengths(most_triangles)) return {};
+  try {
+    return make(progress).candidate;
+  } catch (const NotMeshable&) {
+    return {};
+  }
+}
+
+void SurfaceSearch::set_first_sizing(const Progress& progress) {
+  const PreparedScan& scan = *scan_;
+  if (wanted_.deviation) {
+    length_ = lengths_for_deviation(scan.mesh, wanted_.deviation->distance, options_.gradation,
+                                    scan.has_features() ? &scan.features().cut : nullptr);
+    ask_for_lower_lengths(most_triangles());
+    return;
+  }
+  if (options_.sizing == Sizing::error) {
+    // A quick first surface shows where edges of the curvature's lengths come too far from the scan.
+    sizing_.sizing = Sizing::curvature;
+    const Candidate first = make_surface(scan_, sizing_, options_, Effort::low, progress);
+    scan_ = first.scan;  // creases that it could not keep are not asked for again
+    error_factors_ = scan_->by_vertex(error_factors(first.mesh, scan_->reference(), error_renewal),
+                                      [](double a, double b) { return std::min(a, b); });
+    sizing_.factors = error_factors_;
+  }
+  if (wanted_.longest.empty()) return;
+  const bool keeps_count = !std::holds_alternative<MeanEdgeLength>(options_.size);
+  length_ = within_limits(scan_->mesh, scan_->wanted_lengths(sizing_), wanted_.longest, options_.gradation,
+                          keeps_count ? std::optional(wanted_.triangles) : std::nullopt);
+  ask_for_lengths(scan_->mesh, length_, sizing_);
+  if (keeps_count && sizing_.triangles > 1.01 * wanted_.triangles)
+    size_remark_ = "boxes, balls and elements across walls need about " + count(sizing_.triangles) +
+                   " triangles instead of " + count(wanted_.triangles);
+  wanted_.triangles = sizing_.triangles;
+}
+
+SurfaceSearch::Trial SurfaceSearch::make(const Progress& progress) {
+  Trial made{.candidate = make_surface(scan_, sizing_, options_, options_.effort, progress)};
+  work_ += static_cast<double>(made.candidate.faces());
+  if (wanted_.deviation)
+    judge_deviation(made, progress);
+  else if (made.candidate.method == SimplifyMethod::lattice)
+    lower_worst(made.candidate, options_.effort, progress);
+  open_wedges_within(made);
+  made.mean_edge_ratio = measure_triangles(made.candidate.mesh).edge_ratio.mean;
+  made.shape = find_shape_defects(made.candidate, options_.for_tetrahedra);
+  made.is_other_part = made.lost_creases(*scan_) && wanted_.triangles < few_triangles_of_part && !wanted_.deviation;
+  return made;
+}
+
+void SurfaceSearch::judge_deviation(Trial& made, const Progress& progress) const {
+  const double distance = wanted_.deviation->distance;
+  const PreparedScan& kept = *made.candidate.scan;
+  const DeviationBound bound = bound_deviation(made.candidate.mesh, kept.mesh, {.limit = distance});
+  made.deviation = kept.by_vertex(deviation_at_scan(made.candidate.mesh, kept.reference(), bound),
+                                  [](double a, double b) { return std::max(a, b); });
+  made.candidate.largest_deviation = bound.upper();
+  made.share_beyond = share_beyond(bound.to_reference, distance);
+  made.mean_edge_ratio = measure_triangles(made.candidate.mesh).edge_ratio.mean;
+  if (!holds(made) && !made.gave_way() && is_shapely(made) && made.share_beyond <= few_beyond)
+    bring_within(made, progress);
+}
+
+// What the edge lengths leave too far is brought near place by place; then the exact volume.
+void SurfaceSearch::bring_within(Trial& made, const Progress& progress) const {
+  // The shift that restores the volume takes a little of the deviation; where it takes more, once more with more left.
+  constexpr int trials = 3;
+  constexpr double for_volume = 0.005;
+  constexpr double least_angle_deg = 28;
+  // What the patches' fits must follow, over the deviation; no looser than mending is (MendOptions), and not so tight
+  // that shape has no say.
+  constexpr double fidelity = 0.3, tightest = 1e-4, loosest = 1.6e-3;
+  const double deviation = wanted_.deviation->distance;
+  const PreparedScan& scan = *made.candidate.scan;
+  SurfaceMesh& surface = made.candidate.mesh;
+  LocalRefinementOptions options;
+  options.least_angle_deg = least_angle_deg;
+  options.fidelity_of_diagonal = std::clamp(fidelity * deviation / scan.reference().diagonal, tightest, loosest);
+  for (int trial = 0; trial < trials; ++trial) {
+    options.limit = (1 - for_volume * std::pow(2, trial)) * deviation;
+    const BoundedRefinementResult refined =
+        refine_within(surface, made.candidate.net, scan.reference(), options, progress);
+    if (scan.is_closed())
+      preserve_volume_clear(surface, scan.mesh, held_lines(made.candidate.net, surface.vertices.size()));
+    made.candidate.largest_deviation = bound_deviation(surface, scan.mesh, {.limit = deviation}).upper();
+    if (holds(made) || refined.largest_deviation > options.limit) break;
+  }
+}
+
+// A deviation that was asked for comes before the tetrahedra.
+void SurfaceSearch::open_wedges_within(Trial& made) const {
+  Candidate opened = made.candidate;
+  if (!open_wedges(opened, options_)) return;
+  if (wanted_.deviation) {
+    const double distance = wanted_.deviation->distance;
+    opened.largest_deviation = bound_deviation(opened.mesh, scan_->mesh, {.limit = distance}).upper();
+    if (wanted_.deviation->required && opened.largest_deviation > distance) return;
+  }
+  made.candidate = std::move(opened);
+}
+
+bool SurfaceSearch::holds(const Trial& made) const {
+  return !wanted_.deviation || made.candidate.largest_deviation <= wanted_.deviation->distance;
+}
+
+bool SurfaceSearch::is_shapely(const Trial& made) const {
+  return !wanted_.deviation || made.mean_edge_ratio <= worst_mean_edge_ratio || sizing_.triangles >= most_triangles();
+}
+
+bool SurfaceSearch::is_accepted(const Trial& made) const {
+  if (!holds(made) || !is_shapely(made) || made.is_other_part) return false;
+  if (made.shape.empty()) return true;
+  const bool many = made.candidate.faces() >= many_triangles || wanted_.deviation || !options_.for_tetrahedra;
+  return many && !made.gave_way() && made.shape.sharpest() >= good_of_many_deg;
+}
+
+// Corners of the part stay about as they are; what else is bad decides then.
+bool SurfaceSearch::is_better(const Trial& made, const Trial& other) const {
+  if (made.is_other_part != other.is_other_part) return other.is_other_part;
+  if (holds(made) != holds(other)) return holds(made);
+  if (!holds(made)) return made.candidate.largest_deviation < other.candidate.largest_deviation;
+  if (is_shapely(made) != is_shapely(other)) return is_shapely(made);
+  if (std::abs(made.shape.sharpest() - other.shape.sharpest()) > worth_it_deg)
+    return made.shape.sharpest() > other.shape.sharpest();
+  return made.shape.least_angle_deg > other.shape.least_angle_deg;
+}
+
+bool SurfaceSearch::gains(const Trial& made, const Trial& best) const {
+  if (made.is_other_part != best.is_other_part) return best.is_other_part;
+  if (holds(made) != holds(best)) return holds(made);
+  if (!holds(made)) return made.share_beyond < best.share_beyond;
+  if (!is_shapely(best)) return made.mean_edge_ratio < best.mean_edge_ratio;
+  return made.shape.sharpest() > best.shape.sharpest() + worth_it_deg;
+}
+
+// The creases to ask for after this surface: none where they would ask for smaller triangles everywhere though few are
+// bad without them, and no corners too narrow for a triangle.
+void SurfaceSearch::keep_creases_after(const Trial& latest) {
+  if (wanted_.deviation && !latest.gave_way()) scan_ = latest.candidate.scan;
+  if (latest.lost_creases(*scan_) && !latest.gave_way() && !latest.has_many_bad() && !latest.is_other_part)
+    scan_ = with_creases(scan_, {});
+  else
+    scan_ = with_creases(scan_, without_narrow_corners(scan_->mesh, scan_->creases(), latest.shape.sharp_corners));
+}
+
+// Around what is bad, or everywhere where that is the surface as a whole.
+void SurfaceSearch::lower_lengths(const Trial& latest) {
+  if (length_.empty()) length_ = latest.candidate.scan->wanted_lengths(sizing_);
+  const bool lost = latest.lost_creases(*scan_);
+  keep_creases_after(latest);
+  double everywhere = 1;
+  if (latest.gave_way() || (lost && latest.has_many_bad()) || latest.is_other_part) {
+    everywhere = least_shortening;
+  } else {
+    if (!holds(latest)) shorten_by_deviation(latest.deviation, wanted_.deviation->distance, length_);
+    if (!is_shapely(latest)) everywhere = shortening_for_shape(latest.mean_edge_ratio);
+    if (holds(latest) && is_shapely(latest)) shorten_around(latest.shape.bad, scan_->mesh, length_);
+  }
+  for (double& l : length_) l *= everywhere;
+}
+
+// False where these lengths are not worth another surface.
+bool SurfaceSearch::ask_for_lower_lengths(double most_triangles) {
+  for (std::size_t v = 0; v < wanted_.longest.size(); ++v) length_[v] = std::min(length_[v], wanted_.longest[v]);
+  limit_gradation(scan_->mesh, (wanted_.deviation ? 1 : gradation_around_bad) * options_.gradation, length_);
+  const double before = sizing_.triangles;
+  ask_for_lengths(scan_->mesh, length_, sizing_);
+  if (wanted_.deviation) {
+    const bool had_most = before >= most_triangles && first_work_ > 0;
+    sizing_.triangles = std::clamp(sizing_.triangles, fewest_faces, most_triangles);
+    if (had_most) return false;
+  } else if (sizing_.triangles < room_for_places * wanted_.triangles) {
+    sizing_.triangles = wanted_.triangles;  // a few places cost the others little
+  }
+  return sizing_.triangles <= most_triangles &&
+         (first_work_ == 0 || work_ + sizing_.triangles <= std::max(most_work * first_work_, work_for_small));
+}
+
+double SurfaceSearch::most_triangles() const {
+  if (wanted_.deviation) return most_of_scan * static_cast<double>(scan_->mesh.triangles.size());
+  return std::max(most_growth * wanted_.triangles, std::min(few_triangles, most_growth_of_small * wanted_.triangles));
+}
+
+}  // namespace scan2fea

@@ -1,0 +1,91 @@
+// The search for a surface that all its judges accept: make one, judge it, lower the wanted edge lengths where a judge
+// says so, make it again; the best is kept.
+//
+// The judges: the deviation from the scan, where that is the size; the triangles' shape (shape_check.hpp); creases that
+// could not be kept; and whoever uses the surface (run_again). Each says where edges would have to be shorter, and by
+// how much. The search ends when none asks for more, or when its budget is spent: of triangles in one surface, of tries
+// without a gain, and of work, which is counted in triangles made, so that the result does not depend on the machine.
+#pragma once
+
+#include "preproc/surface/simplification/shape_check.hpp"
+#include "preproc/surface/simplification/surface_candidate.hpp"
+#include "preproc/surface/sizing/shorter_edges.hpp"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace scan2fea {
+
+// What is wanted: a count of triangles, or a largest deviation in model units and at most so many triangles.
+struct WantedSurface {
+  double triangles = 0;
+  std::optional<LargestDeviation> deviation;
+  std::vector<double> longest;  // edges allowed, per vertex of the scan, or empty
+};
+
+class SurfaceSearch {
+ public:
+  // A deviation far below the scan's own facets asks for more triangles than these, over the scan's own; nothing is
+  // known there.
+  static constexpr double most_of_scan = 32;
+
+  SurfaceSearch(PreparedScanPointer scan, WantedSurface wanted, const SimplifyOptions& options);
+  SurfaceSearch(const SurfaceSearch&) = delete;
+
+  // The best surface that the budget allows. Throws what make_surface throws where not even the first could be made,
+  // and NotMeshable where a deviation is required and was not reached.
+  Candidate run(const Progress& progress);
+
+  // One more, with shorter edges at these places; none where the budget is spent or there is no such surface. At most
+  // `most_triangles`. To be called after `run`.
+  std::optional<Candidate> run_again(std::span<const ShorterEdges> places, double most_triangles,
+                                     const Progress& progress);
+
+  // Where more triangles were asked for than wanted; empty where not.
+  const std::string& size_remark() const { return size_remark_; }
+  double wanted_triangles() const { return wanted_.triangles; }
+
+ private:
+  // A surface, and what the judges say of it.
+  struct Trial {
+    Candidate candidate;
+    ShapeDefects shape = {};
+    double mean_edge_ratio = 1;
+    double share_beyond = 0;             // of the faces, farther from the scan than wanted, before places were mended
+    std::vector<double> deviation = {};  // around each vertex of the scan; empty where it is no judge
+    bool is_other_part = false;          // a small part without its edges is another part
+
+    bool gave_way() const { return !candidate.fallback_reason.empty(); }
+    bool lost_creases(const PreparedScan& scan) const { return scan.has_creases() && candidate.feature_edges() == 0; }
+    bool has_many_bad() const;
+  };
+
+  void set_first_sizing(const Progress& progress);
+  Trial make(const Progress& progress);
+  void judge_deviation(Trial& made, const Progress& progress) const;
+  void bring_within(Trial& made, const Progress& progress) const;
+  void open_wedges_within(Trial& made) const;
+  bool holds(const Trial& made) const;
+  bool is_shapely(const Trial& made) const;
+  bool is_accepted(const Trial& made) const;
+  bool is_better(const Trial& made, const Trial& other) const;
+  bool gains(const Trial& made, const Trial& best) const;
+  void lower_lengths(const Trial& latest);
+  void keep_creases_after(const Trial& latest);
+  bool ask_for_lower_lengths(double most_triangles);
+  double most_triangles() const;
+
+  PreparedScanPointer scan_;
+  WantedSurface wanted_;
+  const SimplifyOptions& options_;
+  SizingOptions sizing_;
+  std::vector<double> error_factors_;
+  std::vector<double> length_;  // per vertex of the scan, as asked for last; empty before something was lowered
+  double work_ = 0;             // triangles made
+  double first_work_ = 0;
+  std::string size_remark_;
+};
+
+}  // namespace scan2fea

@@ -1,0 +1,30 @@
+// Places of a finished mesh that a solver may refuse, so that nobody gets one without being told.
+#pragma once
+
+#include "preproc/mesh/surface_mesh.hpp"
+#include "preproc/mesh/tet_mesh.hpp"
+
+#include <string>
+#include <vector>
+
+namespace scan2fea {
+
+struct WeakPlace {
+  std::string what;  // "smallest dihedral angle"
+  double value;      // degrees, or a ratio
+  double limit;
+  Vec3 at;
+  bool is_unusable = false;  // no solver takes it, and the scan does not ask for it
+
+  // "smallest dihedral angle 3.2 at (1, 2, 3), below 5".
+  std::string describe() const;
+};
+
+// Of the elements, or of the triangles where there is no `volume_mesh`: the smallest angle (dihedral, or of a triangle)
+// where it is below 5 degrees, and the largest edge ratio where it is above 10. Below half a degree it is unusable,
+// unless the scan itself is about as sharp within the element's size of there: at an edge between two of its faces, or
+// in a corner between two of its sharp edges. Empty for a sound mesh. O(n).
+std::vector<WeakPlace> find_weak_places(const SurfaceMesh& surface, const TetMesh* volume_mesh,
+                                        const SurfaceMesh& scan);
+
+}  // namespace scan2fea
