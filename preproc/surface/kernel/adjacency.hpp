@@ -1,18 +1,16 @@
-// Who lies beside whom in an indexed triangle mesh, as flat arrays.
+// Adjacency and normals of an indexed triangle mesh, as flat arrays.
 #pragma once
 
+#include "preproc/mesh/face_neighbours.hpp"
 #include "preproc/mesh/surface_mesh.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
 namespace scan2fea {
-
-inline constexpr std::uint32_t no_face = std::numeric_limits<std::uint32_t>::max();
 
 // An edge of a surface as its vertices, the smaller one first: a crease, or a piece of a border, that is to be kept.
 using FeatureEdge = std::array<std::uint32_t, 2>;
@@ -21,28 +19,7 @@ inline FeatureEdge feature_edge(std::uint32_t a, std::uint32_t b) {
   return {std::min(a, b), std::max(a, b)};
 }
 
-// The corners at each vertex: corner 3 f + k is triangle f at its k-th vertex. Within a vertex they are ascending by
-// triangle, not in turning order.
-class VertexStars {
- public:
-  // Linear in the mesh. Indices must be in range; vertices without a triangle have an empty star.
-  explicit VertexStars(const SurfaceMesh& mesh);
-
-  std::span<const std::uint32_t> corners(std::uint32_t vertex) const {
-    return {corners_.data() + first_[vertex], first_[vertex + 1] - first_[vertex]};
-  }
-  std::size_t vertex_count() const { return first_.size() - 1; }
-
- private:
-  std::vector<std::uint32_t> first_;
-  std::vector<std::uint32_t> corners_;
-};
-
-// For each triangle the three across its edges, the k-th opposite to its k-th vertex; no_face across a boundary edge
-// and across an edge that is not shared by exactly two triangles of opposite direction. Linear in the mesh.
-std::vector<Triangle> face_neighbours(const SurfaceMesh& mesh, const VertexStars& stars);
-
-// Both, for stages that hand them on. Linear in the mesh.
+// Stars and neighbours, for stages that hand them on. Linear in the mesh.
 struct MeshAdjacency {
   explicit MeshAdjacency(const SurfaceMesh& mesh) : stars(mesh), neighbours(face_neighbours(mesh, stars)) {}
 
