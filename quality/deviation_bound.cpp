@@ -1,6 +1,10 @@
 #include "quality/deviation_bound.hpp"
 
 #include "preproc/mesh/error.hpp"
+#include "preproc/mesh/face_neighbours.hpp"
+#include "preproc/mesh/vertex_welder.hpp"
+#include "quality/face_blocks.hpp"
+#include "quality/prism_cover.hpp"
 
 #include <tbb/parallel_for.h>
 
@@ -21,16 +25,17 @@ constexpr int cuts_in_turn = 3;
 constexpr double nearest_cut = 0.02;
 // Of the reference's diagonal: distances below it are not told from zero, so that surfaces that coincide cost little.
 constexpr double smallest_limit = 1e-7;
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
-struct Target {
-  const SurfaceMesh& mesh;
-  const TriangleTree& tree;
+// Over what is known of a triangle's distance, or the limit. Parts of the other surface that are higher over it say
+// little about it, and cutting it finds them nearer.
+constexpr double most_height = 6;
 
-  double squared_distance(const Vec3& p, std::uint32_t triangle) const {
-    const auto& [a, b, c] = mesh.triangles[triangle];
-    return (p - closest_point_on_triangle(p, mesh.vertices[a], mesh.vertices[b], mesh.vertices[c])).squaredNorm();
-  }
-};
+double squared_distance(const DeviationReference& target, const Vec3& p, std::uint32_t triangle) {
+  const std::vector<Vec3>& points = target.mesh().vertices;
+  const auto& [a, b, c] = target.mesh().triangles[triangle];
+  return (p - closest_point_on_triangle(p, points[a], points[b], points[c])).squaredNorm();
+}
 
 struct Corner {
   Vec3 point;
@@ -43,23 +48,23 @@ struct Piece {
   int depth;
 };
 
-Corner corner_at(const Vec3& point, const Target& target, std::uint32_t hint) {
-  const ClosestPoint closest = target.tree.closest(point, hint);
+Corner corner_at(const Vec3& point, const DeviationReference& target, std::uint32_t hint) {
+  const ClosestPoint closest = target.tree().closest(point, hint);
   return {point, closest.squared_distance, closest.triangle};
 }
 
 // Of the corners' squared distances to one triangle the largest; infinite where that is not below `useful`.
-double squared_bound_by(std::uint32_t candidate, const Piece& piece, const Target& target, double useful) {
+double squared_bound_by(std::uint32_t candidate, const Piece& piece, const DeviationReference& target, double useful) {
   double largest = 0;
   for (const Corner& c : piece.corners) {
     largest =
-        std::max(largest, c.nearest == candidate ? c.squared_distance : target.squared_distance(c.point, candidate));
+        std::max(largest, c.nearest == candidate ? c.squared_distance : squared_distance(target, c.point, candidate));
     if (largest >= useful) return std::numeric_limits<double>::infinity();
   }
   return largest;
 }
 
-double squared_upper_bound(const Piece& piece, const Target& target) {
+double squared_upper_bound(const Piece& piece, const DeviationReference& target) {
   const auto& [a, b, c] = piece.corners;
   double least = squared_bound_by(a.nearest, piece, target, std::numeric_limits<double>::infinity());
   const auto try_candidate = [&](std::uint32_t t) {
@@ -91,20 +96,20 @@ std::size_t edge_to_cut(const Piece& piece, bool between_candidates) {
 
 // Where on the edge from one corner to another both corners' nearest triangles are equally far, as a fraction. The
 // signed root of the difference of squared distances is linear where the two triangles lie in one plane.
-double equally_far(const Corner& from, const Corner& to, const Target& target) {
+double equally_far(const Corner& from, const Corner& to, const DeviationReference& target) {
   const auto difference = [](double squared_from, double squared_to) {
     const double d = squared_from - squared_to;
     return std::copysign(std::sqrt(std::abs(d)), d);
   };
   double low = 0, high = 1;
-  double at_low = difference(from.squared_distance, target.squared_distance(from.point, to.nearest));
-  double at_high = difference(target.squared_distance(to.point, from.nearest), to.squared_distance);
+  double at_low = difference(from.squared_distance, squared_distance(target, from.point, to.nearest));
+  double at_high = difference(squared_distance(target, to.point, from.nearest), to.squared_distance);
   if (!(at_low < 0) || !(at_high > 0)) return 0.5;
   double fraction = 0.5;
   for (int step = 0; step < 2; ++step) {
     fraction = low + (high - low) * at_low / (at_low - at_high);
     const Vec3 p = from.point + fraction * (to.point - from.point);
-    const double here = difference(target.squared_distance(p, from.nearest), target.squared_distance(p, to.nearest));
+    const double here = difference(squared_distance(target, p, from.nearest), squared_distance(target, p, to.nearest));
     if (std::abs(here) < 0.05 * std::min(-at_low, at_high)) break;
     (here < 0 ? low : high) = fraction;
     (here < 0 ? at_low : at_high) = here;
@@ -115,66 +120,119 @@ double equally_far(const Corner& from, const Corner& to, const Target& target) {
 struct FaceBound {
   double lower2 = 0, upper2 = 0;
   Vec3 farthest = Vec3::Zero();
-
-  void meet(const Corner& corner) {
-    if (corner.squared_distance < lower2) return;
-    lower2 = corner.squared_distance;
-    farthest = corner.point;
-  }
 };
 
-// Cuts until every piece's upper bound is below the limit or near what some point has reached.
-FaceBound bound_face(const Piece& face, const Target& target, const DeviationBoundOptions& options,
-                     std::vector<Piece>& stack) {
-  FaceBound bound;
-  for (const Corner& c : face.corners) bound.meet(c);
-  // Pieces up to this need no cut.
-  const auto enough2 = [&] {
-    const double lower = std::sqrt(bound.lower2);
-    const double enough = std::max(options.limit, lower + options.tolerance * std::max(lower, options.limit));
-    return std::max(enough * enough, bound.upper2);
-  };
-  stack.assign(1, face);
-  while (!stack.empty()) {
-    const Piece piece = stack.back();
-    stack.pop_back();
-    double upper2 = squared_upper_bound(piece, target);
-    if (piece.depth == 0 && upper2 > enough2()) {
-      // A corner on an edge or vertex of the target has several nearest triangles and names one: the middle tells
-      // which.
-      const Corner middle = corner_at((piece.corners[0].point + piece.corners[1].point + piece.corners[2].point) / 3,
-                                      target, piece.corners[0].nearest);
-      bound.meet(middle);
-      upper2 = std::min(upper2, squared_bound_by(middle.nearest, piece, target, upper2));
-    }
-    if (upper2 <= enough2()) {
-      bound.upper2 = std::max(bound.upper2, upper2);
-      continue;
-    }
-    const bool halve = piece.depth % cuts_in_turn == cuts_in_turn - 1;
-    const std::size_t e = edge_to_cut(piece, !halve);
-    const Corner &from = piece.corners[e], &to = piece.corners[(e + 1) % 3];
-    const double fraction = halve ? 0.5 : equally_far(from, to, target);
-    const Vec3 point = from.point + fraction * (to.point - from.point);
-    if (squared_length(piece, e) <= 0 || point == from.point || point == to.point) {
-      bound.upper2 = std::max(bound.upper2, upper2);  // at the end of the numbers
-      continue;
-    }
-    const Corner cut = corner_at(point, target, from.nearest);
-    bound.meet(cut);
-    Piece part = piece;
-    part.depth = piece.depth + 1;
-    part.corners[e] = cut;
-    stack.push_back(part);
-    part.corners[e] = from;
-    part.corners[(e + 1) % 3] = cut;
-    stack.push_back(part);
-  }
-  return bound;
-}
+// Bounds one triangle after the other; one for each thread.
+class FaceBounder {
+ public:
+  FaceBounder(const DeviationReference& target, const DeviationBoundOptions& options)
+      : target_(target), options_(options), cover_(target.mesh(), target.neighbours(), target.box()) {}
 
-OneSidedDeviation bound_side(const SurfaceMesh& from, const TriangleTree& from_tree, const Target& target,
-                             const DeviationBoundOptions& options) {
+  FaceBound bound(const std::array<Corner, 3>& corners) {
+    bound_ = {};
+    for (const Corner& c : corners) meet(c);
+    const Piece face{corners, 0};
+    double upper2 = squared_upper_bound(face, target_);
+    if (settle(upper2)) return bound_;
+    // A corner on an edge or vertex of the target has several nearest triangles and names one: the middle tells which.
+    const Corner middle = met_at((corners[0].point + corners[1].point + corners[2].point) / 3, corners[0].nearest);
+    upper2 = std::min(upper2, squared_bound_by(middle.nearest, face, target_, upper2));
+    if (!settle(upper2) && !settle_by_cover(corners, middle.nearest)) cut(face, 0);
+    // What lies straight over a point may be its nearest, in two roundings.
+    bound_.upper2 = std::max(bound_.upper2, bound_.lower2);
+    return bound_;
+  }
+
+ private:
+  void meet(const Corner& corner) {
+    if (corner.squared_distance < bound_.lower2) return;
+    bound_.lower2 = corner.squared_distance;
+    bound_.farthest = corner.point;
+  }
+  Corner met_at(const Vec3& point, std::uint32_t hint) {
+    const Corner corner = corner_at(point, target_, hint);
+    meet(corner);
+    return corner;
+  }
+
+  // Pieces up to this need no cut.
+  double enough2() const {
+    const double lower = std::sqrt(bound_.lower2);
+    const double enough = std::max(options_.limit, lower + options_.tolerance * std::max(lower, options_.limit));
+    return std::max(enough * enough, bound_.upper2);
+  }
+
+  // Takes the upper bound of a piece where it is low enough.
+  bool settle(double upper2) {
+    if (upper2 > enough2()) return false;
+    bound_.upper2 = std::max(bound_.upper2, upper2);
+    return true;
+  }
+
+  // By the parts of the target that lie over the face. Those that lie too high are asked for their real distance, the
+  // highest one first; what is left is cut, piece by piece of what one triangle of the target covers.
+  bool settle_by_cover(const std::array<Corner, 3>& corners, std::uint32_t seed) {
+    const double known = std::max(options_.limit, std::sqrt(bound_.lower2));
+    if (!cover_.covers(corners[0].point, corners[1].point, corners[2].point, seed, most_height * known)) return false;
+    if (settle(cover_.largest_height() * cover_.largest_height())) return true;
+    met_at(cover_.foot_of_highest(), seed);
+    high_.clear();
+    for (const PrismCover::Part& part : cover_.parts())
+      if (part.height > 0 && !settle(part.height * part.height)) high_.push_back(part);
+    std::sort(high_.begin(), high_.end(), [](const auto& a, const auto& b) {
+      return a.height != b.height ? a.height > b.height : a.face < b.face;
+    });
+    for (const PrismCover::Part& part : high_) {
+      const PrismCover::Polygon foot = cover_.foot_of(part);
+      if (settle(foot.height * foot.height)) continue;
+      std::array<Corner, PrismCover::most_corners> around;
+      for (std::size_t i = 0; i < foot.size; ++i) around[i] = met_at(foot.corners[i], part.face);
+      for (std::size_t i = 2; i < foot.size; ++i) cut({{around[0], around[i - 1], around[i]}, 0}, cover_.slack());
+    }
+    return true;
+  }
+
+  // Cuts until every piece's upper bound is below the limit or near what some point has reached. To all bounds `slack`
+  // is added.
+  void cut(const Piece& whole, double slack) {
+    stack_.assign(1, whole);
+    while (!stack_.empty()) {
+      const Piece piece = stack_.back();
+      stack_.pop_back();
+      double upper2 = squared_upper_bound(piece, target_);
+      if (slack > 0) upper2 = std::pow(std::sqrt(upper2) + slack, 2);
+      if (settle(upper2)) continue;
+      const bool halve = piece.depth % cuts_in_turn == cuts_in_turn - 1;
+      const std::size_t e = edge_to_cut(piece, !halve);
+      const Corner &from = piece.corners[e], &to = piece.corners[(e + 1) % 3];
+      const double fraction = halve ? 0.5 : equally_far(from, to, target_);
+      const Vec3 point = from.point + fraction * (to.point - from.point);
+      if (squared_length(piece, e) <= 0 || point == from.point || point == to.point) {
+        bound_.upper2 = std::max(bound_.upper2, upper2);  // at the end of the numbers
+        continue;
+      }
+      const Corner at_cut = met_at(point, from.nearest);
+      Piece part = piece;
+      part.depth = piece.depth + 1;
+      part.corners[e] = at_cut;
+      stack_.push_back(part);
+      part.corners[e] = from;
+      part.corners[(e + 1) % 3] = at_cut;
+      stack_.push_back(part);
+    }
+  }
+
+  const DeviationReference& target_;
+  const DeviationBoundOptions& options_;
+  PrismCover cover_;
+  FaceBound bound_;
+  std::vector<Piece> stack_;
+  std::vector<PrismCover::Part> high_;
+};
+
+// `order`: of the faces, such that neighbours in it are mostly neighbours in space.
+OneSidedDeviation bound_side(const SurfaceMesh& from, const std::vector<std::uint32_t>& order_of_faces,
+                             const DeviationReference& target, const DeviationBoundOptions& options) {
   const auto for_each_block = [](std::size_t count, const auto& body) {
     tbb::parallel_for(std::size_t{0}, (count + block_size - 1) / block_size,
                       [&](std::size_t block) { body(block * block_size, std::min(count, (block + 1) * block_size)); });
@@ -186,7 +244,7 @@ OneSidedDeviation bound_side(const SurfaceMesh& from, const TriangleTree& from_t
   std::vector<std::uint32_t> place(from.vertices.size(), unmet);
   std::vector<std::uint32_t> order;
   order.reserve(from.vertices.size());
-  for (const std::uint32_t t : from_tree.leaf_order()) {
+  for (const std::uint32_t t : order_of_faces) {
     for (const std::uint32_t v : from.triangles[t]) {
       if (place[v] != unmet) continue;
       place[v] = static_cast<std::uint32_t>(order.size());
@@ -195,7 +253,7 @@ OneSidedDeviation bound_side(const SurfaceMesh& from, const TriangleTree& from_t
   }
   std::vector<Corner> corners(order.size());
   for_each_block(order.size(), [&](std::size_t first, std::size_t last) {
-    std::uint32_t hint = target.tree.leaf_order()[0];
+    std::uint32_t hint = target.tree().leaf_order()[0];
     for (std::size_t i = first; i < last; ++i) {
       corners[i] = corner_at(from.vertices[order[i]], target, hint);
       hint = corners[i].nearest;
@@ -207,12 +265,11 @@ OneSidedDeviation bound_side(const SurfaceMesh& from, const TriangleTree& from_t
   result.upper.resize(from.triangles.size());
   result.farthest.resize(from.triangles.size());
   for_each_block(from.triangles.size(), [&](std::size_t first, std::size_t last) {
-    std::vector<Piece> stack;
-    for (std::size_t leaf = first; leaf < last; ++leaf) {
-      const std::uint32_t f = from_tree.leaf_order()[leaf];
+    FaceBounder bounder(target, options);
+    for (std::size_t i = first; i < last; ++i) {
+      const std::uint32_t f = order_of_faces[i];
       const auto& [a, b, c] = from.triangles[f];
-      const Piece face{{corners[place[a]], corners[place[b]], corners[place[c]]}, 0};
-      const FaceBound bound = bound_face(face, target, options, stack);
+      const FaceBound bound = bounder.bound({corners[place[a]], corners[place[b]], corners[place[c]]});
       result.lower[f] = std::sqrt(bound.lower2);
       result.upper[f] = std::sqrt(bound.upper2);
       result.farthest[f] = bound.farthest;
@@ -253,26 +310,51 @@ const OneSidedDeviation& DeviationBound::worse_side() const {
   return to_mesh.largest_upper > to_reference.largest_upper ? to_mesh : to_reference;
 }
 
-DeviationBound bound_deviation(const SurfaceMesh& mesh, const SurfaceMesh& reference,
-                               const DeviationBoundOptions& options) {
-  return bound_deviation(mesh, reference, TriangleTree(reference), options);
+DeviationReference::DeviationReference(const SurfaceMesh& mesh)
+    : mesh_(mesh),
+      tree_(mesh),
+      neighbours_(face_neighbours(mesh, VertexStars(mesh))),
+      box_(bounding_box(mesh.vertices)) {
+  // Where faces meet that do not share the vertices, as along a surface's cuts, they are neighbours all the same.
+  const auto has_border = [](const Triangle& n) { return std::find(n.begin(), n.end(), no_face) != n.end(); };
+  if (std::none_of(neighbours_.begin(), neighbours_.end(), has_border)) return;
+  VertexWelder welder(mesh.vertices.size());
+  std::vector<std::uint32_t> place(mesh.vertices.size());
+  for (std::size_t v = 0; v < place.size(); ++v) place[v] = welder.add(mesh.vertices[v]);
+  SurfaceMesh welded{welder.take_vertices(), mesh.triangles};
+  if (welded.vertices.size() == mesh.vertices.size()) return;
+  for (Triangle& t : welded.triangles)
+    for (std::uint32_t& v : t) v = place[v];
+  const std::vector<Triangle> met = face_neighbours(welded, VertexStars(welded));
+  for (std::size_t f = 0; f < met.size(); ++f)
+    for (std::size_t k = 0; k < 3; ++k)
+      if (neighbours_[f][k] == no_face) neighbours_[f][k] = met[f][k];
 }
 
 DeviationBound bound_deviation(const SurfaceMesh& mesh, const SurfaceMesh& reference,
-                               const TriangleTree& reference_tree, const DeviationBoundOptions& options) {
-  const DeviationBoundOptions used = checked(options, reference);
-  const TriangleTree mesh_tree(mesh);
+                               const DeviationBoundOptions& options) {
+  return bound_deviation(mesh, DeviationReference(reference), options);
+}
+
+DeviationBound bound_deviation(const SurfaceMesh& mesh, const DeviationReference& reference,
+                               const DeviationBoundOptions& options) {
+  const DeviationBoundOptions used = checked(options, reference.mesh());
+  const DeviationReference made_ready(mesh);
   DeviationBound bound;
-  bound.to_reference = bound_side(mesh, mesh_tree, {reference, reference_tree}, used);
-  bound.to_mesh = bound_side(reference, reference_tree, {mesh, mesh_tree}, used);
+  bound.to_reference = bound_side(mesh, made_ready.tree().leaf_order(), reference, used);
+  bound.to_mesh = bound_side(reference.mesh(), reference.tree().leaf_order(), made_ready, used);
   return bound;
 }
 
 OneSidedDeviation bound_one_sided_deviation(const SurfaceMesh& from, const SurfaceMesh& onto,
                                             const DeviationBoundOptions& options) {
-  const DeviationBoundOptions used = checked(options, onto);
-  const TriangleTree from_tree(from), onto_tree(onto);
-  return bound_side(from, from_tree, {onto, onto_tree}, used);
+  return bound_one_sided_deviation(from, DeviationReference(onto), options);
+}
+
+OneSidedDeviation bound_one_sided_deviation(const SurfaceMesh& from, const DeviationReference& onto,
+                                            const DeviationBoundOptions& options) {
+  const DeviationBoundOptions used = checked(options, onto.mesh());
+  return bound_side(from, FaceBlocks(from).order(), onto, used);
 }
 
 }  // namespace scan2fea

@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
+#include <utility>
 
 namespace scan2fea {
 namespace {
@@ -112,6 +114,135 @@ TEST(DeviationBound, TrianglesWithoutAreaAreSegmentsAndPoints) {
   EXPECT_NEAR(bound.to_reference.largest_upper, 1, 0.02);
   EXPECT_EQ(bound.to_reference.worst_face, mesh.triangles.size());
   EXPECT_LT(bound.to_mesh.largest_upper, 1e-6);
+}
+
+// All that the bounds promise, against points of each face: random ones, many near its edges.
+void expect_bounds_hold(const SurfaceMesh& mesh, const DeviationReference& reference, const OneSidedDeviation& bound,
+                        const DeviationBoundOptions& options, unsigned seed) {
+  const double rounding = 1e-12 * bounding_box(reference.mesh().vertices).diagonal();
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  const auto distance = [&](const Vec3& p) { return std::sqrt(reference.tree().closest(p).squared_distance); };
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    const auto& [a, b, c] = mesh.triangles[f];
+    for (int i = 0; i < 12; ++i) {
+      const int power = 1 + i % 3;
+      Vec3 weight(std::pow(uniform(random), power), std::pow(uniform(random), power), std::pow(uniform(random), power));
+      weight /= weight.sum() + 1e-300;
+      const Vec3 p = weight[0] * mesh.vertices[a] + weight[1] * mesh.vertices[b] + weight[2] * mesh.vertices[c];
+      ASSERT_LE(distance(p), bound.upper[f] + rounding) << "face " << f;
+    }
+    ASSERT_LE(bound.lower[f], bound.upper[f]);
+    ASSERT_NEAR(distance(bound.farthest[f]), bound.lower[f], rounding);
+    const Vec3 on_face =
+        closest_point_on_triangle(bound.farthest[f], mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]);
+    ASSERT_LE((on_face - bound.farthest[f]).norm(), rounding);
+    const double close_enough = bound.lower[f] + options.tolerance * std::max(bound.lower[f], options.limit);
+    ASSERT_LE(bound.upper[f], std::max(options.limit, close_enough) + rounding);
+  }
+}
+
+void expect_bounds_hold(const SurfaceMesh& mesh, const SurfaceMesh& reference) {
+  static unsigned seed = 0;
+  const DeviationReference mesh_ready(mesh), reference_ready(reference);
+  const double diagonal = bounding_box(reference.vertices).diagonal();
+  for (const double limit : {0.0, 0.003, 0.03})
+    for (const double tolerance : {0.02, 0.3}) {
+      const DeviationBoundOptions options{limit * diagonal, tolerance};
+      const DeviationBound bound = bound_deviation(mesh, reference_ready, options);
+      const DeviationBoundOptions used{std::max(options.limit, 1e-7 * diagonal), tolerance};
+      expect_bounds_hold(mesh, reference_ready, bound.to_reference, used, ++seed);
+      expect_bounds_hold(reference, mesh_ready, bound.to_mesh, used, ++seed);
+    }
+}
+
+SurfaceMesh turned(SurfaceMesh mesh, double angle) {
+  const Eigen::AngleAxisd turn(angle, Vec3(1, 2, 3).normalized());
+  for (Vec3& v : mesh.vertices) v = turn * v;
+  return mesh;
+}
+
+// Each face with vertices of its own.
+SurfaceMesh soup_of(const SurfaceMesh& mesh) {
+  SurfaceMesh soup;
+  for (const Triangle& t : mesh.triangles) {
+    const auto first = static_cast<std::uint32_t>(soup.vertices.size());
+    for (const std::uint32_t v : t) soup.vertices.push_back(mesh.vertices[v]);
+    soup.triangles.push_back({first, first + 1, first + 2});
+  }
+  return soup;
+}
+
+// A sheet that turns back over itself, so that a line across meets it once or three times.
+SurfaceMesh fold(double edge_length) {
+  SurfaceMesh mesh = analytic::sheet(3, 1, edge_length);
+  for (Vec3& v : mesh.vertices) {
+    const double x = v.x();
+    v = {x + 0.9 * std::sin(2 * x), v.y(), 0.1 * std::cos(2 * x)};
+  }
+  return mesh;
+}
+
+SurfaceMesh without(SurfaceMesh mesh, std::size_t one_of) {
+  std::vector<Triangle> kept;
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+    if (f % one_of != one_of / 2) kept.push_back(mesh.triangles[f]);
+  mesh.triangles = std::move(kept);
+  return mesh;
+}
+
+TEST(DeviationBound, HoldsForPointsOfClosedSurfaces) {
+  for (const double noise : {0.0, 0.01, 0.1}) {
+    expect_bounds_hold(ellipsoid(1), analytic::noisy(ellipsoid(3), noise, 1));
+    expect_bounds_hold(ellipsoid(2), analytic::noisy(ellipsoid(3), noise, 2));
+    expect_bounds_hold(turned(analytic::box({2, 1, 0.5}, 0.5), 0.01),
+                       analytic::noisy(analytic::box({2, 1, 0.5}, 0.12), noise, 3));
+  }
+}
+
+TEST(DeviationBound, HoldsOverBordersAndHoles) {
+  const SurfaceMesh fine = analytic::noisy(analytic::sheet(3, 1, 0.05), 0.01, 1);
+  expect_bounds_hold(analytic::sheet(3, 1, 0.4), fine);
+  expect_bounds_hold(analytic::sheet(3.3, 1.2, 0.5), fine);
+  expect_bounds_hold(analytic::sheet(3, 1, 0.4), without(fine, 37));
+  expect_bounds_hold(analytic::sheet(3, 1, 0.4), soup_of(fine));
+  expect_bounds_hold(ellipsoid(2), without(ellipsoid(4), 101));
+}
+
+TEST(DeviationBound, HoldsOverFoldsAndThinWalls) {
+  expect_bounds_hold(analytic::sheet(3, 1, 0.3), fold(0.04));
+  expect_bounds_hold(analytic::noisy(fold(0.25), 0.01, 1), fold(0.04));
+  const SurfaceMesh fin = analytic::block_with_fin(1.1);
+  expect_bounds_hold(analytic::noisy(analytic::block_with_fin(4), 0.2, 1), fin);
+  const SurfaceMesh sheets = analytic::join(
+      analytic::sheet(3, 1, 0.05), analytic::moved(analytic::reversed(analytic::sheet(3, 1, 0.06)), {0, 0, 0.002}));
+  expect_bounds_hold(analytic::noisy(analytic::sheet(3, 1, 0.3), 0.01, 1), sheets);
+  expect_bounds_hold(sheets, analytic::noisy(analytic::sheet(3, 1, 0.3), 0.01, 1));
+}
+
+TEST(DeviationBound, HoldsForWhatIsNoSurface) {
+  // A wall on the sheet's middle row of edges, faces turned over, faces twice, faces without area.
+  SurfaceMesh fine = analytic::noisy(analytic::sheet(2, 1, 0.1), 0.01, 1);
+  const auto top = static_cast<std::uint32_t>(fine.vertices.size());
+  fine.vertices.push_back({1, 0.5, 0.4});
+  for (std::size_t f = 0, count = fine.triangles.size(); f < count; ++f) {
+    const Triangle t = fine.triangles[f];
+    if (f % 17 == 3) fine.triangles.push_back({t[0], t[1], top});
+    if (f % 29 == 4) fine.triangles.push_back(t);
+    if (f % 23 == 5) fine.triangles.push_back({t[0], t[1], t[0]});
+    if (f % 23 == 6) fine.triangles.push_back({t[2], t[2], t[2]});
+    if (f % 31 == 7) std::swap(fine.triangles[f][0], fine.triangles[f][1]);
+  }
+  expect_bounds_hold(analytic::sheet(2, 1, 0.3), fine);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  SurfaceMesh soup;
+  for (std::uint32_t v = 0; v < 60; ++v) soup.vertices.push_back({uniform(random), uniform(random), uniform(random)});
+  for (int f = 0; f < 80; ++f)
+    soup.triangles.push_back({static_cast<std::uint32_t>(60 * uniform(random)),
+                              static_cast<std::uint32_t>(60 * uniform(random)),
+                              static_cast<std::uint32_t>(60 * uniform(random))});
+  expect_bounds_hold(analytic::box({1, 1, 1}, 0.5), soup);
 }
 
 TEST(DeviationBound, IsTheSameForAnyNumberOfThreads) {

@@ -221,14 +221,14 @@ BoundedRefinementResult refine_within(SurfaceMesh& mesh, FeatureNet& net, const 
                                       const LocalRefinementOptions& options, const Progress& progress) {
   check(options);
   net.patch_of_face.clear();
-  const TriangleTree tree(scan.mesh);
+  const DeviationReference reference(scan.mesh);
   LocalRefinementOptions left = options;
   BoundedRefinementResult result;
   int yielded = 0;
   bool changed = false;
   for (int round = 0;; ++round) {
     progress("deviation", static_cast<double>(round) / options.rounds);
-    const DeviationBound bound = bound_deviation(mesh, scan.mesh, tree, {.limit = goal_limit(options)});
+    const DeviationBound bound = bound_deviation(mesh, reference, {.limit = goal_limit(options)});
     result.largest_deviation = bound.upper();
     if (result.largest_deviation <= options.limit || round == options.rounds) break;
     FarPoints far;
