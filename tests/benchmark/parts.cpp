@@ -2,20 +2,12 @@
 // noise.
 #include "preproc/mesh/read_surface.hpp"
 #include "preproc/mesh/write_surface.hpp"
+#include "tests/benchmark/planar_parts.hpp"
 
-#include <CGAL/Constrained_Delaunay_triangulation_2.h>
-#include <CGAL/Delaunay_mesh_face_base_2.h>
-#include <CGAL/Delaunay_mesh_size_criteria_2.h>
-#include <CGAL/Delaunay_mesher_2.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-
-#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
-#include <list>
 #include <map>
-#include <numbers>
 #include <optional>
 #include <random>
 #include <vector>
@@ -23,107 +15,6 @@
 namespace {
 
 using namespace scan2fea;
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Point = Kernel::Point_2;
-using Loop = std::vector<Point>;
-
-// A region of the plane: loops[0] counter-clockwise around it, the others around its holes, each with a point inside.
-struct Region {
-  std::vector<Loop> loops;
-  std::list<Point> hole_seeds;
-};
-
-void add_arc(Loop& loop, Point centre, double radius, double from_deg, double to_deg, int pieces) {
-  for (int i = 0; i <= pieces; ++i) {
-    const double a = (from_deg + (to_deg - from_deg) * i / pieces) * std::numbers::pi / 180;
-    loop.emplace_back(centre.x() + radius * std::cos(a), centre.y() + radius * std::sin(a));
-  }
-}
-
-Loop circle(Point centre, double radius, int corners) {
-  Loop loop;
-  add_arc(loop, centre, radius, 0, 360, corners);
-  loop.pop_back();
-  return loop;
-}
-
-Region rectangle(double width, double depth) {
-  return {{{Point(0, 0), Point(width, 0), Point(width, depth), Point(0, depth)}}, {}};
-}
-
-void add_hole(Region& region, Point centre, double radius, int corners) {
-  region.loops.push_back(circle(centre, radius, corners));
-  region.hole_seeds.push_back(centre);
-}
-
-struct Planar {
-  std::vector<Point> points;
-  std::vector<Triangle> triangles;                   // counter-clockwise
-  std::vector<std::array<std::uint32_t, 2>> border;  // the region on its left
-};
-
-// Triangles of edges up to `size`, or of the loops' corners alone.
-Planar triangulate(const Region& region, std::optional<double> size) {
-  using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<
-      Kernel, CGAL::Triangulation_data_structure_2<CGAL::Triangulation_vertex_base_2<Kernel>,
-                                                   CGAL::Delaunay_mesh_face_base_2<Kernel>>>;
-  using Criteria = CGAL::Delaunay_mesh_size_criteria_2<Triangulation>;
-  Triangulation cdt;
-  for (const Loop& loop : region.loops)
-    for (std::size_t i = 0; i < loop.size(); ++i) cdt.insert_constraint(loop[i], loop[(i + 1) % loop.size()]);
-  CGAL::Delaunay_mesher_2<Triangulation, Criteria> mesher(cdt, size ? Criteria(0.125, *size) : Criteria());
-  mesher.set_seeds(region.hole_seeds.begin(), region.hole_seeds.end());  // these components are outside
-  if (size)
-    mesher.refine_mesh();
-  else
-    mesher.init();
-
-  Planar planar;
-  std::map<Triangulation::Vertex_handle, std::uint32_t> index;
-  const auto index_of = [&](Triangulation::Vertex_handle v) {
-    const auto [at, added] = index.try_emplace(v, static_cast<std::uint32_t>(planar.points.size()));
-    if (added) planar.points.push_back(v->point());
-    return at->second;
-  };
-  for (const auto f : cdt.finite_face_handles()) {
-    if (!f->is_in_domain()) continue;
-    planar.triangles.push_back({index_of(f->vertex(0)), index_of(f->vertex(1)), index_of(f->vertex(2))});
-    for (int k = 0; k < 3; ++k)
-      if (!f->neighbor(k)->is_in_domain())
-        planar.border.push_back({index_of(f->vertex(cdt.ccw(k))), index_of(f->vertex(cdt.cw(k)))});
-  }
-  return planar;
-}
-
-// Walls of `layers` rows over the border, with or without the two ends.
-SurfaceMesh extrude(const Planar& planar, double height, int layers, bool ends = true) {
-  SurfaceMesh mesh;
-  const auto n = static_cast<std::uint32_t>(planar.points.size());
-  if (ends)
-    for (const Triangle& t : planar.triangles) {
-      mesh.triangles.push_back({t[0], t[2], t[1]});
-      mesh.triangles.push_back({n + t[0], n + t[1], n + t[2]});
-    }
-  for (const double z : {0.0, height})
-    for (const Point& p : planar.points) mesh.vertices.emplace_back(p.x(), p.y(), z);
-  std::map<std::uint32_t, std::uint32_t> first_above;  // of a border point, the wall's vertices between the ends
-  for (const auto& edge : planar.border) {
-    const std::uint32_t v = edge[0];
-    first_above[v] = static_cast<std::uint32_t>(mesh.vertices.size());
-    for (int k = 1; k < layers; ++k)
-      mesh.vertices.emplace_back(planar.points[v].x(), planar.points[v].y(), height * k / layers);
-  }
-  const auto at = [&](std::uint32_t v, int k) {
-    if (k == 0 || k == layers) return k == 0 ? v : n + v;
-    return first_above.at(v) + static_cast<std::uint32_t>(k - 1);
-  };
-  for (const auto& [a, b] : planar.border)
-    for (int k = 0; k < layers; ++k) {
-      mesh.triangles.push_back({at(a, k), at(b, k), at(b, k + 1)});
-      mesh.triangles.push_back({at(a, k), at(b, k + 1), at(a, k + 1)});
-    }
-  return mesh;
-}
 
 SurfaceMesh flat(const Planar& planar) {
   SurfaceMesh mesh;
