@@ -1,10 +1,7 @@
 #include "quality/deviation_bound.hpp"
 
 #include "preproc/mesh/error.hpp"
-#include "preproc/mesh/face_neighbours.hpp"
-#include "preproc/mesh/vertex_welder.hpp"
 #include "quality/face_blocks.hpp"
-#include "quality/prism_cover.hpp"
 
 #include <tbb/parallel_for.h>
 
@@ -126,18 +123,15 @@ struct FaceBound {
 class FaceBounder {
  public:
   FaceBounder(const DeviationReference& target, const DeviationBoundOptions& options)
-      : target_(target), options_(options), cover_(target.mesh(), target.neighbours(), target.box()) {}
+      : target_(target), options_(options), cover_(target.tree(), target.edges(), target.box()) {}
 
   FaceBound bound(const std::array<Corner, 3>& corners) {
     bound_ = {};
     for (const Corner& c : corners) meet(c);
     const Piece face{corners, 0};
-    double upper2 = squared_upper_bound(face, target_);
-    if (settle(upper2)) return bound_;
-    // A corner on an edge or vertex of the target has several nearest triangles and names one: the middle tells which.
-    const Corner middle = met_at((corners[0].point + corners[1].point + corners[2].point) / 3, corners[0].nearest);
-    upper2 = std::min(upper2, squared_bound_by(middle.nearest, face, target_, upper2));
-    if (!settle(upper2) && !settle_by_cover(corners, middle.nearest)) cut(face, 0);
+    const double upper2 = squared_upper_bound(face, target_);
+    if (!settle(upper2) && !settle_by_cover(corners, corners[0].nearest) && !settle_by_middle(face, upper2))
+      cut(face, 0);
     // What lies straight over a point may be its nearest, in two roundings.
     bound_.upper2 = std::max(bound_.upper2, bound_.lower2);
     return bound_;
@@ -169,24 +163,35 @@ class FaceBounder {
     return true;
   }
 
+  // A corner on an edge or vertex of the target has several nearest triangles and names one, and that may lie beside
+  // the face: the middle tells which.
+  bool settle_by_middle(const Piece& face, double upper2) {
+    const auto& [a, b, c] = face.corners;
+    const Corner middle = met_at((a.point + b.point + c.point) / 3, a.nearest);
+    if (settle(std::min(upper2, squared_bound_by(middle.nearest, face, target_, upper2)))) return true;
+    return middle.nearest != a.nearest && settle_by_cover(face.corners, middle.nearest);
+  }
+
   // By the parts of the target that lie over the face. Those that lie too high are asked for their real distance, the
   // highest one first; what is left is cut, piece by piece of what one triangle of the target covers.
   bool settle_by_cover(const std::array<Corner, 3>& corners, std::uint32_t seed) {
     const double known = std::max(options_.limit, std::sqrt(bound_.lower2));
-    if (!cover_.covers(corners[0].point, corners[1].point, corners[2].point, seed, most_height * known)) return false;
+    const auto& [a, b, c] = corners;
+    if (!cover_.covers(a.point, b.point, c.point, target_.tree().leaf_of(seed), most_height * known)) return false;
     if (settle(cover_.largest_height() * cover_.largest_height())) return true;
     met_at(cover_.foot_of_highest(), seed);
     high_.clear();
     for (const PrismCover::Part& part : cover_.parts())
       if (part.height > 0 && !settle(part.height * part.height)) high_.push_back(part);
-    std::sort(high_.begin(), high_.end(), [](const auto& a, const auto& b) {
-      return a.height != b.height ? a.height > b.height : a.face < b.face;
+    std::sort(high_.begin(), high_.end(), [](const auto& x, const auto& y) {
+      return x.height != y.height ? x.height > y.height : x.leaf < y.leaf;
     });
     for (const PrismCover::Part& part : high_) {
       const PrismCover::Polygon foot = cover_.foot_of(part);
       if (settle(foot.height * foot.height)) continue;
       std::array<Corner, PrismCover::most_corners> around;
-      for (std::size_t i = 0; i < foot.size; ++i) around[i] = met_at(foot.corners[i], part.face);
+      const std::uint32_t hint = target_.tree().leaf_order()[part.leaf];
+      for (std::size_t i = 0; i < foot.size; ++i) around[i] = met_at(foot.corners[i], hint);
       for (std::size_t i = 2; i < foot.size; ++i) cut({{around[0], around[i - 1], around[i]}, 0}, cover_.slack());
     }
     return true;
@@ -311,25 +316,7 @@ const OneSidedDeviation& DeviationBound::worse_side() const {
 }
 
 DeviationReference::DeviationReference(const SurfaceMesh& mesh)
-    : mesh_(mesh),
-      tree_(mesh),
-      neighbours_(face_neighbours(mesh, VertexStars(mesh))),
-      box_(bounding_box(mesh.vertices)) {
-  // Where faces meet that do not share the vertices, as along a surface's cuts, they are neighbours all the same.
-  const auto has_border = [](const Triangle& n) { return std::find(n.begin(), n.end(), no_face) != n.end(); };
-  if (std::none_of(neighbours_.begin(), neighbours_.end(), has_border)) return;
-  VertexWelder welder(mesh.vertices.size());
-  std::vector<std::uint32_t> place(mesh.vertices.size());
-  for (std::size_t v = 0; v < place.size(); ++v) place[v] = welder.add(mesh.vertices[v]);
-  SurfaceMesh welded{welder.take_vertices(), mesh.triangles};
-  if (welded.vertices.size() == mesh.vertices.size()) return;
-  for (Triangle& t : welded.triangles)
-    for (std::uint32_t& v : t) v = place[v];
-  const std::vector<Triangle> met = face_neighbours(welded, VertexStars(welded));
-  for (std::size_t f = 0; f < met.size(); ++f)
-    for (std::size_t k = 0; k < 3; ++k)
-      if (neighbours_[f][k] == no_face) neighbours_[f][k] = met[f][k];
-}
+    : mesh_(mesh), tree_(mesh), edges_(mesh, tree_), box_(bounding_box(mesh.vertices)) {}
 
 DeviationBound bound_deviation(const SurfaceMesh& mesh, const SurfaceMesh& reference,
                                const DeviationBoundOptions& options) {

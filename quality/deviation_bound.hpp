@@ -14,6 +14,7 @@
 #pragma once
 
 #include "preproc/mesh/surface_mesh.hpp"
+#include "quality/prism_cover.hpp"
 #include "quality/triangle_tree.hpp"
 
 #include <cstdint>
@@ -30,13 +31,12 @@ class DeviationReference {
   const SurfaceMesh& mesh() const { return mesh_; }
   const TriangleTree& tree() const { return tree_; }
   const BoundingBox& box() const { return box_; }
-  // As face_neighbours makes them; faces whose vertices are apart but at the same points are neighbours too.
-  const std::vector<Triangle>& neighbours() const { return neighbours_; }
+  const LeafEdges& edges() const { return edges_; }
 
  private:
   const SurfaceMesh& mesh_;
   TriangleTree tree_;
-  std::vector<Triangle> neighbours_;
+  LeafEdges edges_;
   BoundingBox box_;
 };
 

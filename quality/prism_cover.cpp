@@ -1,6 +1,7 @@
 #include "quality/prism_cover.hpp"
 
 #include "preproc/mesh/face_neighbours.hpp"
+#include "preproc/mesh/vertex_welder.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,33 +19,73 @@ constexpr double smallest_angle = 1e-6;
 constexpr std::array<std::array<double, 3>, 3> places_of_degree{
     {{0.4127, 0.3301, 0.2572}, {0.2243, 0.4391, 0.3366}, {0.3519, 0.1927, 0.4554}}};
 
+constexpr std::uint32_t no_leaf = ~0U;
+
 double cross_of(double ax, double ay, double bx, double by) {
   return ax * by - ay * bx;
 }
 
+// As face_neighbours, but where it sees a border because faces do not share the vertices there, as along cuts, those
+// with the same points are neighbours.
+std::vector<Triangle> neighbours_by_points(const SurfaceMesh& mesh) {
+  std::vector<Triangle> neighbours = face_neighbours(mesh, VertexStars(mesh));
+  const auto has_border = [](const Triangle& n) { return std::find(n.begin(), n.end(), no_face) != n.end(); };
+  if (std::none_of(neighbours.begin(), neighbours.end(), has_border)) return neighbours;
+  VertexWelder welder(mesh.vertices.size());
+  std::vector<std::uint32_t> place(mesh.vertices.size());
+  for (std::size_t v = 0; v < place.size(); ++v) place[v] = welder.add(mesh.vertices[v]);
+  SurfaceMesh welded{welder.take_vertices(), mesh.triangles};
+  if (welded.vertices.size() == mesh.vertices.size()) return neighbours;
+  for (Triangle& t : welded.triangles)
+    for (std::uint32_t& v : t) v = place[v];
+  const std::vector<Triangle> met = face_neighbours(welded, VertexStars(welded));
+  for (std::size_t f = 0; f < met.size(); ++f)
+    for (std::size_t k = 0; k < 3; ++k)
+      if (neighbours[f][k] == no_face) neighbours[f][k] = met[f][k];
+  return neighbours;
+}
+
 }  // namespace
 
-void MetFaces::clear() {
-  for (const std::uint32_t slot : taken_) slots_[slot] = no_face;
+LeafEdges::LeafEdges(const SurfaceMesh& mesh, const TriangleTree& tree) : across_(mesh.triangles.size()) {
+  const std::vector<Triangle> neighbours = neighbours_by_points(mesh);
+  const auto same = [&](std::uint32_t v, std::uint32_t w) { return v == w || mesh.vertices[v] == mesh.vertices[w]; };
+  for (std::uint32_t leaf = 0; leaf < across_.size(); ++leaf) {
+    const std::uint32_t f = tree.leaf_order()[leaf];
+    const Triangle& t = mesh.triangles[f];
+    for (std::size_t k = 0; k < 3; ++k) {
+      across_[leaf][k] = none;
+      const std::uint32_t g = neighbours[f][k];
+      if (g == no_face) continue;
+      const Triangle& u = mesh.triangles[g];
+      for (std::uint32_t j = 0; j < 3; ++j)
+        if (same(u[(j + 1) % 3], t[(k + 2) % 3]) && same(u[(j + 2) % 3], t[(k + 1) % 3]))
+          across_[leaf][k] = tree.leaf_of(g) << 2 | j;
+    }
+  }
+}
+
+void MetLeaves::clear() {
+  for (const std::uint32_t slot : taken_) slots_[slot] = no_leaf;
   taken_.clear();
 }
 
-bool MetFaces::insert(std::uint32_t face) {
+bool MetLeaves::insert(std::uint32_t leaf) {
   constexpr std::size_t fewest_slots = 128;
   if (2 * (taken_.size() + 1) > slots_.size()) {
     const std::vector<std::uint32_t> before = std::exchange(slots_, {});
-    slots_.assign(std::max(fewest_slots, 2 * before.size()), no_face);
+    slots_.assign(std::max(fewest_slots, 2 * before.size()), no_leaf);
     for (const std::uint32_t slot : std::exchange(taken_, {})) place(before[slot]);
   }
-  return place(face);
+  return place(leaf);
 }
 
-bool MetFaces::place(std::uint32_t face) {
+bool MetLeaves::place(std::uint32_t leaf) {
   constexpr std::uint32_t golden = 2654435769U;  // spreads neighbours
-  std::size_t slot = ((face * golden) >> 7) & (slots_.size() - 1);
-  for (; slots_[slot] != no_face; slot = (slot + 1) & (slots_.size() - 1))
-    if (slots_[slot] == face) return false;
-  slots_[slot] = face;
+  std::size_t slot = ((leaf * golden) >> 7) & (slots_.size() - 1);
+  for (; slots_[slot] != no_leaf; slot = (slot + 1) & (slots_.size() - 1))
+    if (slots_[slot] == leaf) return false;
+  slots_[slot] = leaf;
   taken_.push_back(static_cast<std::uint32_t>(slot));
   return true;
 }
@@ -80,8 +121,8 @@ bool PrismCover::lay(const Vec3& a, const Vec3& b, const Vec3& c) {
   return true;
 }
 
-PrismCover::Point PrismCover::project(std::uint32_t vertex) const {
-  const Vec3 d = surface_.vertices[vertex] - origin_;
+PrismCover::Point PrismCover::project(const Vec3& point) const {
+  const Vec3 d = point - origin_;
   Point p{along_.dot(d), across_.dot(d), normal_.dot(d), 0};
   for (unsigned k = 0; k < 3; ++k)
     if (distance(edges_[k], p) < rim_) p.outside |= 1U << k;
@@ -93,37 +134,30 @@ bool PrismCover::walk(std::uint32_t seed, double most_height) {
   met_.clear();
   parts_.clear();
   met_.insert(seed);
-  const Triangle& t = surface_.triangles[seed];
-  parts_.push_back({seed, {project(t[0]), project(t[1]), project(t[2])}, -1});
+  const auto& [a, b, c] = tree_.corners_of_leaf(seed);
+  parts_.push_back({seed, {project(a), project(b), project(c)}, -1});
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     const Part part = parts_[i];
     const auto [low, high] = std::minmax({part.corners[0].height, part.corners[1].height, part.corners[2].height});
     if (low > most_height || high < -most_height) return false;
-    for (std::size_t edge = 0; edge < 3; ++edge)
-      if (may_meet(part.corners[(edge + 1) % 3], part.corners[(edge + 2) % 3]) && !cross(part, edge)) return false;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (may_meet(part.corners[(k + 1) % 3], part.corners[(k + 2) % 3]) && !cross(part, k)) return false;
   }
   return true;
 }
 
 // Adds the part across the edge opposite to a corner; false where there is none.
-bool PrismCover::cross(const Part& from, std::size_t edge) {
-  const std::uint32_t face = neighbours_[from.face][edge];
-  if (face == no_face) return false;
-  if (!met_.insert(face)) return true;
-  const Triangle &t = surface_.triangles[from.face], &u = surface_.triangles[face];
-  const std::size_t first = (edge + 1) % 3, second = (edge + 2) % 3;
-  // By their points, since neighbours need not share vertices.
-  const auto same = [&](std::uint32_t v, std::uint32_t w) {
-    return v == w || surface_.vertices[v] == surface_.vertices[w];
-  };
-  std::size_t apex = 0;
-  while (apex < 3 && !(same(u[(apex + 1) % 3], t[second]) && same(u[(apex + 2) % 3], t[first]))) ++apex;
-  if (apex == 3) return false;
-  Part part{face, {}, -1};
-  part.corners[apex] = project(u[apex]);
-  part.corners[(apex + 1) % 3] = from.corners[second];
-  part.corners[(apex + 2) % 3] = from.corners[first];
-  parts_.push_back(part);
+bool PrismCover::cross(const Part& from, std::size_t corner) {
+  const std::uint32_t edge = leaf_edges_.across(from.leaf, corner);
+  if (edge == LeafEdges::none) return false;
+  const std::uint32_t leaf = LeafEdges::leaf(edge), apex = LeafEdges::corner(edge);
+  if (!met_.insert(leaf)) return true;
+  Part& part = parts_.emplace_back();
+  part.leaf = leaf;
+  part.height = -1;
+  part.corners[apex] = project(tree_.corners_of_leaf(leaf)[apex]);
+  part.corners[(apex + 1) % 3] = from.corners[(corner + 2) % 3];
+  part.corners[(apex + 2) % 3] = from.corners[(corner + 1) % 3];
   return true;
 }
 

@@ -20,6 +20,7 @@
 #pragma once
 
 #include "preproc/mesh/surface_mesh.hpp"
+#include "quality/triangle_tree.hpp"
 
 #include <array>
 #include <cstddef>
@@ -28,14 +29,33 @@
 
 namespace scan2fea {
 
-// The faces met on a walk; a table that grows with them, not with the surface.
-class MetFaces {
+// Who lies across the edges of a tree's leaves. An edge is a leaf and the corner opposite to it, in one number.
+class LeafEdges {
  public:
-  void clear();
-  bool insert(std::uint32_t face);  // false where it was there already
+  static constexpr std::uint32_t none = ~0U;
+  static std::uint32_t leaf(std::uint32_t edge) { return edge >> 2; }
+  static std::uint32_t corner(std::uint32_t edge) { return edge & 3; }
+
+  // Of a surface and the tree of all its triangles. Triangles that do not share the vertices of an edge, but their
+  // points, lie across from each other too. Linear in the mesh.
+  LeafEdges(const SurfaceMesh& mesh, const TriangleTree& tree);
+
+  // The same edge in the other direction, of another triangle as a rule; none at a border, and where an edge is not
+  // that of exactly two triangles of opposite direction.
+  std::uint32_t across(std::uint32_t leaf, std::size_t corner) const { return across_[leaf][corner]; }
 
  private:
-  bool place(std::uint32_t face);
+  std::vector<std::array<std::uint32_t, 3>> across_;
+};
+
+// The leaves met on a walk; a table that grows with them, not with the surface.
+class MetLeaves {
+ public:
+  void clear();
+  bool insert(std::uint32_t leaf);  // false where it was there already
+
+ private:
+  bool place(std::uint32_t leaf);
 
   std::vector<std::uint32_t> slots_;  // a power of two of them, at most half of them taken
   std::vector<std::uint32_t> taken_;
@@ -50,9 +70,9 @@ class PrismCover {
     unsigned outside;  // bit k: beyond the triangle's k-th edge, or on its rim
   };
   struct Part {
-    std::uint32_t face;
+    std::uint32_t leaf;  // of the surface's tree
     std::array<Point, 3> corners;
-    // The largest, of either sign, over the triangle; of the whole of `face` where even that does not raise the largest
+    // The largest, of either sign, over the triangle; of the whole leaf where even that does not raise the largest
     // of all parts. Negative where the part is none of those that cover.
     double height;
   };
@@ -64,11 +84,11 @@ class PrismCover {
     double height = 0;  // the largest over its corners
   };
 
-  // All must outlive this; `neighbours` as face_neighbours makes them, `box` of the surface.
-  PrismCover(const SurfaceMesh& surface, const std::vector<Triangle>& neighbours, const BoundingBox& box)
-      : surface_(surface), neighbours_(neighbours), box_(box) {}
+  // All must outlive this; they are of one surface.
+  PrismCover(const TriangleTree& tree, const LeafEdges& edges, const BoundingBox& box)
+      : tree_(tree), leaf_edges_(edges), box_(box) {}
 
-  // Whether the triangle abc is covered by parts that `seed`, a face of the surface, leads to; false as well where that
+  // Whether the triangle abc is covered by parts that `seed`, a leaf of the tree, leads to; false as well where that
   // cannot be told, where abc has no area, or where a part is higher than `most_height` all over: there the walk is on
   // its way to places that tell nothing. Linear in the parts, about 50 ns each.
   bool covers(const Vec3& a, const Vec3& b, const Vec3& c, std::uint32_t seed, double most_height);
@@ -90,26 +110,26 @@ class PrismCover {
   };
 
   bool lay(const Vec3& a, const Vec3& b, const Vec3& c);
-  Point project(std::uint32_t vertex) const;
+  Point project(const Vec3& point) const;
   double distance(const Line& line, const Point& p) const { return line.nx * p.x + line.ny * p.y + line.offset; }
   Vec3 in_space(double x, double y) const { return origin_ + x * along_ + y * across_; }
   bool walk(std::uint32_t seed, double most_height);
-  bool cross(const Part& from, std::size_t edge);
+  bool cross(const Part& from, std::size_t corner);
   bool may_meet(const Point& p, const Point& q) const;
   int degree() const;
   int covers_at(const Part& part, double x, double y, bool& is_clear) const;
   Clipped clipped(const Part& part) const;
   void measure(int degree);
 
-  const SurfaceMesh& surface_;
-  const std::vector<Triangle>& neighbours_;
+  const TriangleTree& tree_;
+  const LeafEdges& leaf_edges_;
   const BoundingBox& box_;
   Vec3 origin_, along_, across_, normal_;  // the triangle's frame: its first corner, and unit vectors
   std::array<std::array<double, 2>, 3> triangle_;
   std::array<Line, 3> edges_;
   double rim_;  // its width
   double slack_;
-  MetFaces met_;
+  MetLeaves met_;
   std::vector<Part> parts_;
   double largest_height_;
   Vec3 foot_of_highest_;

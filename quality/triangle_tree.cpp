@@ -147,8 +147,8 @@ std::uint32_t TriangleTree::build_node(std::span<Centre> centres) {
 
 BoundingBox TriangleTree::box_of_child(std::uint32_t child) const {
   if (child & is_leaf_bit) {
-    const Leaf& leaf = leaves_[child & ~is_leaf_bit];
-    return {leaf.a.cwiseMin(leaf.b).cwiseMin(leaf.c), leaf.a.cwiseMax(leaf.b).cwiseMax(leaf.c)};
+    const auto& [a, b, c] = leaves_[child & ~is_leaf_bit];
+    return {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
   }
   const Node& node = nodes_[child];
   return {node.low.colwise().minCoeff().transpose().matrix(), node.high.colwise().maxCoeff().transpose().matrix()};
@@ -167,8 +167,8 @@ void TriangleTree::descend(const Vec3& p, ClosestPoint& best) const {
     if (entry.squared_distance >= best.squared_distance) continue;
     if (entry.child & is_leaf_bit) {
       const std::uint32_t l = entry.child & ~is_leaf_bit;
-      const Leaf& leaf = leaves_[l];
-      const Vec3 candidate = closest_point_on_triangle(p, leaf.a, leaf.b, leaf.c);
+      const auto& [a, b, c] = leaves_[l];
+      const Vec3 candidate = closest_point_on_triangle(p, a, b, c);
       const double distance2 = (p - candidate).squaredNorm();
       if (distance2 < best.squared_distance) best = {distance2, candidate, triangle_of_leaf_[l]};
       continue;
@@ -191,14 +191,14 @@ void TriangleTree::descend(const Vec3& p, ClosestPoint& best) const {
 }
 
 ClosestPoint TriangleTree::closest(const Vec3& p) const {
-  ClosestPoint best{infinity, leaves_[0].a, triangle_of_leaf_[0]};
+  ClosestPoint best{infinity, leaves_[0][0], triangle_of_leaf_[0]};
   descend(p, best);
   return best;
 }
 
 ClosestPoint TriangleTree::closest(const Vec3& p, std::uint32_t hint) const {
-  const Leaf& leaf = leaves_[leaf_of_triangle_[hint]];
-  const Vec3 candidate = closest_point_on_triangle(p, leaf.a, leaf.b, leaf.c);
+  const auto& [a, b, c] = leaves_[leaf_of_triangle_[hint]];
+  const Vec3 candidate = closest_point_on_triangle(p, a, b, c);
   ClosestPoint best{(p - candidate).squaredNorm(), candidate, hint};
   descend(p, best);
   return best;
@@ -206,7 +206,7 @@ ClosestPoint TriangleTree::closest(const Vec3& p, std::uint32_t hint) const {
 
 std::optional<ClosestPoint> TriangleTree::closest_within(const Vec3& p, double distance) const {
   const double limit = distance * distance;
-  ClosestPoint best{limit, leaves_[0].a, triangle_of_leaf_[0]};
+  ClosestPoint best{limit, leaves_[0][0], triangle_of_leaf_[0]};
   descend(p, best);
   if (best.squared_distance < limit) return best;
   return std::nullopt;

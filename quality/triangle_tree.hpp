@@ -55,15 +55,16 @@ class TriangleTree {
   // The triangles' indices in the order of the leaves: neighbours in this list are mostly neighbours in space, which
   // makes runs of queries along it cheap.
   const std::vector<std::uint32_t>& leaf_order() const { return triangle_of_leaf_; }
+  // The place of a triangle of the set in that list, and the corners of the triangle at a place: beside one another in
+  // memory where the triangles are neighbours.
+  std::uint32_t leaf_of(std::uint32_t triangle) const { return leaf_of_triangle_[triangle]; }
+  const std::array<Vec3, 3>& corners_of_leaf(std::uint32_t leaf) const { return leaves_[leaf]; }
 
  private:
   using FourBoxes = Eigen::Array<double, 4, 3>;  // row: child, column: axis
   struct Node {
     FourBoxes low, high;                 // an empty slot has low = +inf, high = -inf, and so meets nothing
     std::array<std::uint32_t, 4> child;  // a node, or a leaf where is_leaf_bit is set
-  };
-  struct Leaf {
-    Vec3 a, b, c;
   };
   struct Centre {
     Vec3 position;
@@ -80,7 +81,7 @@ class TriangleTree {
   void descend(const Vec3& p, ClosestPoint& best) const;
 
   std::vector<Node> nodes_;
-  std::vector<Leaf> leaves_;
+  std::vector<std::array<Vec3, 3>> leaves_;
   std::vector<std::uint32_t> triangle_of_leaf_;
   std::vector<std::uint32_t> leaf_of_triangle_;
 };

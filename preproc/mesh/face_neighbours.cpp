@@ -17,28 +17,35 @@ VertexStars::VertexStars(const SurfaceMesh& mesh) : first_(mesh.vertices.size() 
   }
 }
 
+// Each edge is looked at from its vertex of the smaller index, so that each star is read once.
 std::vector<Triangle> face_neighbours(const SurfaceMesh& mesh, const VertexStars& stars) {
+  struct Spoke {           // an edge of a triangle at the vertex
+    std::uint32_t vertex;  // at its other end
+    std::uint32_t face, opposite;
+    bool leaves;  // the vertex, in the triangle's direction
+  };
   std::vector<Triangle> neighbours(mesh.triangles.size(), Triangle{no_face, no_face, no_face});
-  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
-    const Triangle& t = mesh.triangles[f];
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      const std::uint32_t from = t[(k + 1) % 3];
-      const std::uint32_t to = t[(k + 2) % 3];
-      // The neighbour runs along the edge from `to` to `from`; one more triangle on the edge makes it non-manifold.
-      std::uint32_t found = no_face;
-      bool manifold = true;
-      for (const std::uint32_t corner : stars.corners(to)) {
-        const std::uint32_t g = corner / 3;
-        const Triangle& u = mesh.triangles[g];
-        const std::uint32_t at = corner % 3;
-        if (u[(at + 1) % 3] == from) {
-          manifold = manifold && found == no_face;
-          found = g;
-        } else if (u[(at + 2) % 3] == from && g != f) {
-          manifold = false;
-        }
+  std::vector<Spoke> spokes;
+  for (std::uint32_t v = 0; v < stars.vertex_count(); ++v) {
+    spokes.clear();
+    for (const std::uint32_t corner : stars.corners(v)) {
+      const std::uint32_t f = corner / 3, k = corner % 3;
+      const std::uint32_t to = mesh.triangles[f][(k + 1) % 3], from = mesh.triangles[f][(k + 2) % 3];
+      if (to >= v) spokes.push_back({to, f, (k + 2) % 3, true});
+      if (from >= v) spokes.push_back({from, f, (k + 1) % 3, false});
+    }
+    for (const Spoke& out : spokes) {
+      if (!out.leaves) continue;
+      const Spoke* in = nullptr;
+      int leaving = 0, arriving = 0;
+      for (const Spoke& other : spokes) {
+        if (other.vertex != out.vertex) continue;
+        ++(other.leaves ? leaving : arriving);
+        if (!other.leaves) in = &other;
       }
-      if (manifold) neighbours[f][k] = found;
+      if (leaving != 1 || arriving != 1) continue;
+      neighbours[out.face][out.opposite] = in->face;
+      neighbours[in->face][in->opposite] = out.face;
     }
   }
   return neighbours;
