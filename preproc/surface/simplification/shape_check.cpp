@@ -13,9 +13,8 @@ namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
 
-// Triangles with smaller angles are bad, and walls whose elements have smaller ones. Between two creases less will do:
-// such an element need not be flat.
-constexpr double least_angle_deg = 30, least_across_wall_deg = 25, least_corner_deg = 19;
+// Across walls and between two creases less will do: elements there need not be flat.
+constexpr double least_across_wall_deg = 25, least_corner_deg = 19;
 // A wall is looked for up to this depth, in edges. Its sides face one another within 37 degrees.
 constexpr double deepest_wall = 0.5, opposing = -0.8;
 // Cosine of what normals beside a place may differ by for it to have one.
@@ -23,12 +22,13 @@ constexpr double flat = 0.7;
 
 class ShapeCheck {
  public:
-  ShapeCheck(const Candidate& candidate, bool with_walls)
+  ShapeCheck(const Candidate& candidate, const ShapeLimits& limits)
       : mesh_(candidate.mesh),
+        limits_(limits),
         neighbours_(face_neighbours(candidate.mesh, VertexStars(candidate.mesh))),
         normals_(vertex_normals(candidate.mesh)),
         creases_(edges_of(candidate.net)) {
-    if (with_walls) tree_.emplace(mesh_);
+    if (limits.walls) tree_.emplace(mesh_);
   }
 
   ShapeDefects defects() const {
@@ -41,7 +41,8 @@ class ShapeCheck {
       for (std::uint32_t k = 0; k < 3; ++k)
         angle = std::min({angle, corner_angle(f, k, longest, found), half_wedge(f, k)});
       found.least_angle_deg = std::min(found.least_angle_deg, angle);
-      if (angle < least_angle_deg) found.bad.push_back(shorter_edges((p + q + r) / 3, longest, angle, least_angle_deg));
+      if (angle < limits_.least_angle_deg)
+        found.bad.push_back(shorter_edges((p + q + r) / 3, longest, angle, limits_.least_angle_deg));
     }
     return found;
   }
@@ -55,8 +56,8 @@ class ShapeCheck {
     const Triangle& t = mesh_.triangles[f];
     const std::uint32_t v = t[k], next = t[(k + 1) % 3], last = t[(k + 2) % 3];
     const double angle = angle_deg(mesh_.vertices[v], mesh_.vertices[next], mesh_.vertices[last]);
-    if (!(angle < least_angle_deg) || !is_crease(v, next) || !is_crease(v, last)) return angle;
-    if (angle < least_corner_deg) {
+    if (!(angle < limits_.least_angle_deg) || !is_crease(v, next) || !is_crease(v, last)) return angle;
+    if (angle < std::min(least_corner_deg, limits_.least_angle_deg)) {
       found.sharp_corners.push_back({mesh_.vertices[v], longest});
       found.sharpest_corner_deg = std::min(found.sharpest_corner_deg, angle);
     }
@@ -74,7 +75,8 @@ class ShapeCheck {
     if (n.dot(m) > 0) return 180;
     const Vec3 along = (mesh_.vertices[b] - mesh_.vertices[a]).normalized();
     const double half = interior_angle(n, m, along) / 2 * degrees;
-    if (half < least_angle_deg && is_crease(a, b)) return 2 * half >= least_corner_deg ? 180 : 2 * half;
+    if (half < limits_.least_angle_deg && is_crease(a, b))
+      return 2 * half >= std::min(least_corner_deg, limits_.least_angle_deg) ? 180 : 2 * half;
     return half;
   }
 
@@ -97,7 +99,7 @@ class ShapeCheck {
     const bool beyond = (inside - nearest.point).dot(opposite) > 0;
     const double thickness = beyond ? depth - distance : depth + distance;
     const double angle = std::atan(thickness / (std::sqrt(0.75) * edge)) * degrees;
-    return angle < least_across_wall_deg ? angle : 180;
+    return angle < std::min(least_across_wall_deg, limits_.least_angle_deg) ? angle : 180;
   }
 
   // Behind its centre, its corners and the middles of its sides, where these are not on edges of the part.
@@ -121,6 +123,7 @@ class ShapeCheck {
   }
 
   const SurfaceMesh& mesh_;
+  ShapeLimits limits_;
   std::optional<TriangleTree> tree_;
   std::vector<Triangle> neighbours_;
   std::vector<Vec3> normals_;
@@ -129,8 +132,8 @@ class ShapeCheck {
 
 }  // namespace
 
-ShapeDefects find_shape_defects(const Candidate& candidate, bool with_walls) {
-  return ShapeCheck(candidate, with_walls).defects();
+ShapeDefects find_shape_defects(const Candidate& candidate, const ShapeLimits& limits) {
+  return ShapeCheck(candidate, limits).defects();
 }
 
 }  // namespace scan2fea

@@ -21,9 +21,14 @@ struct ShapeDefects {
   double sharpest() const { return std::min(least_angle_deg, sharpest_corner_deg); }
 };
 
-// Bad are triangles with angles below 30 degrees, folds whose half is sharper, and walls across which elements would
-// have less than 25, where `with_walls`; corners between two creases only below 19. O(n); with walls O(n log n), three
+// What counts as bad.
+struct ShapeLimits {
+  double least_angle_deg = 30;  // of triangles, and of half of a fold
+  bool walls = true;            // elements across them, below 25 degrees, or `least_angle_deg` if that is less
+};
+
+// Corners between two creases are bad only below 19 degrees, or `least_angle_deg`. O(n); with walls O(n log n), three
 // searches a triangle.
-ShapeDefects find_shape_defects(const Candidate& candidate, bool with_walls);
+ShapeDefects find_shape_defects(const Candidate& candidate, const ShapeLimits& limits);
 
 }  // namespace scan2fea

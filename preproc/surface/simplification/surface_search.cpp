@@ -36,9 +36,8 @@ int patience(std::size_t triangles) {
 // Two lattices of nearly the same sizes differ by about this; a smaller gain is chance.
 constexpr double worth_it_deg = 0.5;
 
-// Above many_triangles only surfaces below this are made again: where time matters, the optimisation of the tetrahedra
-// copes with the rest.
-constexpr double good_of_many_deg = 17;
+// Angles that are aimed at. Where time matters, the optimisation of the tetrahedra copes with smaller ones.
+constexpr double good_of_few_deg = 30, good_of_many_deg = 17;
 
 // With more bad triangles than this the size as a whole is wrong, not places.
 constexpr double share_of_many = 0.1;
@@ -72,10 +71,9 @@ double share_beyond(const OneSidedDeviation& side, double distance) {
 
 // Shorter edges where the deviation is too large; it goes with their square.
 void shorten_by_deviation(const std::vector<double>& deviation, double distance, std::vector<double>& length) {
-  constexpr double margin = 0.8;         // of the distance, aimed at
   constexpr double shortest_edge = 0.5;  // over the distance: shorter ones help nothing
   for (std::size_t v = 0; v < length.size(); ++v) {
-    const double ratio = std::sqrt(margin * distance / std::max(deviation[v], margin * distance));
+    const double ratio = std::sqrt(distance / std::max(deviation[v], distance));
     length[v] = std::max(length[v] * std::max(ratio, most_shortening), std::min(length[v], shortest_edge * distance));
   }
 }
@@ -149,6 +147,7 @@ std::optional<Candidate> SurfaceSearch::run_again(std::span<const ShorterEdges> 
 void SurfaceSearch::set_first_sizing(const Progress& progress) {
   const PreparedScan& scan = *scan_;
   if (wanted_.deviation) {
+    reference_.emplace(scan.mesh);
     length_ = lengths_for_deviation(scan.mesh, wanted_.deviation->distance, options_.gradation,
                                     scan.has_features() ? &scan.features().cut : nullptr);
     ask_for_lower_lengths(most_triangles());
@@ -183,7 +182,9 @@ SurfaceSearch::Trial SurfaceSearch::make(const Progress& progress) {
     lower_worst(made.candidate, options_.effort, progress);
   open_wedges_within(made);
   made.mean_edge_ratio = measure_triangles(made.candidate.mesh).edge_ratio.mean;
-  made.shape = find_shape_defects(made.candidate, options_.for_tetrahedra);
+  const bool few = made.candidate.faces() < many_triangles && options_.for_tetrahedra && !wanted_.deviation;
+  made.shape = find_shape_defects(
+      made.candidate, {.least_angle_deg = few ? good_of_few_deg : good_of_many_deg, .walls = options_.for_tetrahedra});
   made.is_other_part = made.lost_creases(*scan_) && wanted_.triangles < few_triangles_of_part && !wanted_.deviation;
   return made;
 }
@@ -191,7 +192,7 @@ SurfaceSearch::Trial SurfaceSearch::make(const Progress& progress) {
 void SurfaceSearch::judge_deviation(Trial& made, const Progress& progress) const {
   const double distance = wanted_.deviation->distance;
   const PreparedScan& kept = *made.candidate.scan;
-  const DeviationBound bound = bound_deviation(made.candidate.mesh, kept.mesh, {.limit = distance});
+  const DeviationBound bound = bound_deviation(made.candidate.mesh, *reference_, {.limit = distance});
   made.deviation = kept.by_vertex(deviation_at_scan(made.candidate.mesh, kept.reference(), bound),
                                   [](double a, double b) { return std::max(a, b); });
   made.candidate.largest_deviation = bound.upper();
@@ -222,7 +223,7 @@ void SurfaceSearch::bring_within(Trial& made, const Progress& progress) const {
         refine_within(surface, made.candidate.net, scan.reference(), options, progress);
     if (scan.is_closed())
       preserve_volume_clear(surface, scan.mesh, held_lines(made.candidate.net, surface.vertices.size()));
-    made.candidate.largest_deviation = bound_deviation(surface, scan.mesh, {.limit = deviation}).upper();
+    made.candidate.largest_deviation = bound_deviation(surface, *reference_, {.limit = deviation}).upper();
     if (holds(made) || refined.largest_deviation > options.limit) break;
   }
 }
@@ -233,7 +234,7 @@ void SurfaceSearch::open_wedges_within(Trial& made) const {
   if (!open_wedges(opened, options_)) return;
   if (wanted_.deviation) {
     const double distance = wanted_.deviation->distance;
-    opened.largest_deviation = bound_deviation(opened.mesh, scan_->mesh, {.limit = distance}).upper();
+    opened.largest_deviation = bound_deviation(opened.mesh, *reference_, {.limit = distance}).upper();
     if (wanted_.deviation->required && opened.largest_deviation > distance) return;
   }
   made.candidate = std::move(opened);
@@ -249,9 +250,7 @@ bool SurfaceSearch::is_shapely(const Trial& made) const {
 
 bool SurfaceSearch::is_accepted(const Trial& made) const {
   if (!holds(made) || !is_shapely(made) || made.is_other_part) return false;
-  if (made.shape.empty()) return true;
-  const bool many = made.candidate.faces() >= many_triangles || wanted_.deviation || !options_.for_tetrahedra;
-  return many && !made.gave_way() && made.shape.sharpest() >= good_of_many_deg;
+  return made.shape.empty();
 }
 
 // Corners of the part stay about as they are; what else is bad decides then.

@@ -10,6 +10,7 @@
 #include "preproc/surface/simplification/shape_check.hpp"
 #include "preproc/surface/simplification/surface_candidate.hpp"
 #include "preproc/surface/sizing/shorter_edges.hpp"
+#include "quality/deviation_bound.hpp"
 
 #include <optional>
 #include <span>
@@ -78,6 +79,7 @@ class SurfaceSearch {
   double most_triangles() const;
 
   PreparedScanPointer scan_;
+  std::optional<DeviationReference> reference_;  // the scan, where the deviation is a judge
   WantedSurface wanted_;
   const SimplifyOptions& options_;
   SizingOptions sizing_;
