@@ -115,7 +115,7 @@ bool PrismCover::lay(const Vec3& a, const Vec3& b, const Vec3& c) {
   triangle_ = {{{0, 0}, {length, 0}, {along_.dot(ac), across_.dot(ac)}}};
   for (std::size_t k = 0; k < 3; ++k) {
     const auto &from = triangle_[k], &to = triangle_[(k + 1) % 3];
-    const double dx = to[0] - from[0], dy = to[1] - from[1], l = std::hypot(dx, dy);
+    const double dx = to[0] - from[0], dy = to[1] - from[1], l = std::sqrt(dx * dx + dy * dy);
     edges_[k] = {-dy / l, dx / l, (dy * from[0] - dx * from[1]) / l};
   }
   return true;
@@ -211,21 +211,32 @@ int PrismCover::degree() const {
 
 // The part's polygon over the triangle (Sutherland and Hodgman, 1974).
 PrismCover::Clipped PrismCover::clipped(const Part& part) const {
-  Clipped polygon{{part.corners[0], part.corners[1], part.corners[2]}, 3};
-  for (std::size_t k = 0; k < 3 && polygon.size > 0; ++k) {
-    const Clipped before = polygon;
-    polygon.size = 0;
-    for (std::size_t i = 0; i < before.size; ++i) {
-      const Point &p = before.corners[i], &q = before.corners[(i + 1) % before.size];
-      const double at_p = distance(edges_[k], p), at_q = distance(edges_[k], q);
-      if (at_p >= 0) polygon.corners[polygon.size++] = p;
-      if ((at_p >= 0) == (at_q >= 0)) continue;
-      const double t = at_p / (at_p - at_q);
-      polygon.corners[polygon.size++] = {p.x + t * (q.x - p.x), p.y + t * (q.y - p.y),
-                                         p.height + t * (q.height - p.height), 0};
-    }
-  }
+  const auto& [a, b, c] = part.corners;
+  const unsigned crossed = a.outside | b.outside | c.outside;
+  Clipped polygon{{a, b, c}, 3};
+  for (std::size_t k = 0; k < 3; ++k)
+    if ((crossed >> k & 1U) != 0) clip(polygon, edges_[k]);
   return polygon;
+}
+
+void PrismCover::clip(Clipped& polygon, const Line& edge) const {
+  const std::array<Point, most_corners> before = polygon.corners;
+  const std::size_t size = std::exchange(polygon.size, 0);
+  if (size == 0) return;
+  const Point* from = &before[size - 1];
+  double at_from = distance(edge, *from);
+  for (std::size_t i = 0; i < size; ++i) {
+    const Point& to = before[i];
+    const double at_to = distance(edge, to);
+    if ((at_from >= 0) != (at_to >= 0)) {
+      const double t = at_from / (at_from - at_to);
+      polygon.corners[polygon.size++] = {from->x + t * (to.x - from->x), from->y + t * (to.y - from->y),
+                                         from->height + t * (to.height - from->height), 0};
+    }
+    if (at_to >= 0) polygon.corners[polygon.size++] = to;
+    from = &to;
+    at_from = at_to;
+  }
 }
 
 // The heights of the parts that cover the triangle: those that are turned as the sum of all is.
@@ -236,8 +247,7 @@ void PrismCover::measure(int degree) {
     if (degree * cross_of(b.x - a.x, b.y - a.y, c.x - a.x, c.y - a.y) < 0) continue;
     part.height = std::max({std::abs(a.height), std::abs(b.height), std::abs(c.height)}) + slack_;
     if (part.height <= highest + slack_) continue;
-    Clipped over{{a, b, c}, 3};
-    if ((a.outside | b.outside | c.outside) != 0) over = clipped(part);
+    const Clipped over = clipped(part);
     part.height = -1;
     for (std::size_t i = 0; i < over.size; ++i) {
       const Point& p = over.corners[i];

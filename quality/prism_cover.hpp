@@ -119,6 +119,7 @@ class PrismCover {
   int degree() const;
   int covers_at(const Part& part, double x, double y, bool& is_clear) const;
   Clipped clipped(const Part& part) const;
+  void clip(Clipped& polygon, const Line& edge) const;
   void measure(int degree);
 
   const TriangleTree& tree_;
