@@ -31,12 +31,14 @@ constexpr double limit = 0.02;  // six times the sagitta of the coarse sphere's 
 
 TEST(LocalRefinement, ReachesTheLimitForEveryPointAndChangesOnlyWhatIsAround) {
   const SurfaceMesh scan = horned_sphere(6);
+  // So near that moving vertices alone does not do.
+  constexpr double near = limit / 2;
   const SurfaceMesh before = analytic::sphere(1, 3);
-  ASSERT_GT(bound_deviation(before, scan, {.limit = limit}).upper(), 0.1);
+  ASSERT_GT(bound_deviation(before, scan, {.limit = near}).upper(), 0.1);
   SurfaceMesh mesh = before;
-  const BoundedRefinementResult result = refine_within(mesh, ReferenceSurface(scan), {.limit = limit});
-  EXPECT_LE(result.largest_deviation, limit);
-  EXPECT_LE(bound_deviation(mesh, scan, {.limit = limit}).upper(), limit);
+  const BoundedRefinementResult result = refine_within(mesh, ReferenceSurface(scan), {.limit = near});
+  EXPECT_LE(result.largest_deviation, near);
+  EXPECT_LE(bound_deviation(mesh, scan, {.limit = near}).upper(), near);
   EXPECT_GT(result.changes.inserted, 0U);
   EXPECT_EQ(mesh.vertices.size(), before.vertices.size() + result.changes.inserted);
   EXPECT_EQ(mesh.triangles.size(), before.triangles.size() + 2 * result.changes.inserted);

@@ -1,12 +1,14 @@
 #include "preproc/surface/mending/local_refinement.hpp"
 
 #include "preproc/mesh/error.hpp"
+#include "preproc/surface/kernel/face_boxes.hpp"
 #include "preproc/surface/kernel/locate.hpp"
 #include "preproc/surface/kernel/nearest.hpp"
 #include "preproc/surface/kernel/parallel_blocks.hpp"
 #include "preproc/surface/mending/refinement_patch.hpp"
 #include "quality/deviation_bound.hpp"
 #include "quality/face_blocks.hpp"
+#include "quality/triangle_tree.hpp"
 
 #include <tbb/parallel_for.h>
 
@@ -108,10 +110,18 @@ std::vector<Place> places_beyond(const std::vector<double>& deviation, double li
   return places;
 }
 
-// Per patch the faces of the scan in its box. A scan may have millions: whole blocks of them are told to be far away
-// by one box, since neighbours in a file are mostly neighbours in space.
-std::vector<std::vector<std::uint32_t>> scan_faces_near(const SurfaceMesh& scan,
+// Per patch the faces of the scan in its box. Without a tree: a scan may have millions: whole blocks of them are told
+// to be far away by one box, since neighbours in a file are mostly neighbours in space.
+std::vector<std::vector<std::uint32_t>> scan_faces_near(const SurfaceMesh& scan, const TriangleTree* tree,
                                                         const std::vector<RefinementPatch>& patches) {
+  std::vector<std::vector<std::uint32_t>> near(patches.size());
+  if (tree != nullptr) {
+    for (std::size_t p = 0; p < patches.size(); ++p) {
+      tree->for_each_overlap(patches[p].box(), [&](std::uint32_t f) { near[p].push_back(f); });
+      std::sort(near[p].begin(), near[p].end());
+    }
+    return near;
+  }
   using Hits = std::vector<std::pair<std::uint32_t, std::uint32_t>>;  // patch, face
   std::vector<Hits> hits(parallel_block_count(scan.triangles.size()));
   for_each_block(scan.triangles.size(), [&](std::size_t first, std::size_t last) {
@@ -129,17 +139,52 @@ std::vector<std::vector<std::uint32_t>> scan_faces_near(const SurfaceMesh& scan,
           hits[first / parallel_block_size].emplace_back(static_cast<std::uint32_t>(p), static_cast<std::uint32_t>(f));
     }
   });
-  std::vector<std::vector<std::uint32_t>> near(patches.size());
   for (const Hits& block : hits)
     for (const auto& [p, f] : block) near[p].push_back(f);
   return near;
 }
 
+// The boxes of a surface's faces while patches of it change.
+class BoxesOfSurface {
+ public:
+  explicit BoxesOfSurface(const SurfaceMesh& mesh) : boxes_(mesh), built_(mesh.triangles.size()) {}
+
+  void renew(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& faces) {
+    for (const std::uint32_t f : faces)
+      if (f < built_) boxes_.set(f, box_of_face(mesh, f));
+  }
+
+  // Ascending, but for the patch's own.
+  std::vector<std::uint32_t> faces_around(const SurfaceMesh& mesh, const RefinementPatch& patch) const {
+    std::vector<std::uint32_t> around;
+    const auto add = [&](std::uint32_t f) {
+      if (!std::binary_search(patch.faces().begin(), patch.faces().end(), f)) around.push_back(f);
+    };
+    boxes_.for_each_overlap(patch.box(), add);
+    // Those that came since are few.
+    for (auto f = static_cast<std::uint32_t>(built_); f < mesh.triangles.size(); ++f)
+      if (boxes_meet(box_of_face(mesh, f), patch.box())) add(f);
+    std::sort(around.begin(), around.end());
+    return around;
+  }
+
+ private:
+  FaceBoxes boxes_;
+  std::size_t built_;  // faces that have a box
+};
+
+// What a round changed, and where the distance between mesh and scan may therefore be another.
+struct Changes {
+  LocalRefinementResult counts;
+  std::vector<std::uint32_t> changed;     // faces of the mesh
+  std::vector<std::uint32_t> scan_faces;  // in the boxes of the patches
+};
+
 // Mends places that are apart from each other at once, until each has had its turn or lay within the patch of another,
 // which then stood for it. Returns those whose patches are still too far.
-std::vector<Place> mend(SurfaceMesh& mesh, FeatureNet& net, const ReferenceSurface& scan, std::vector<Place> places,
-                        int rings, const PatchGoal& goal, const LocalRefinementOptions& options,
-                        LocalRefinementResult& result) {
+std::vector<Place> mend(SurfaceMesh& mesh, BoxesOfSurface& boxes, FeatureNet& net, const ReferenceSurface& scan,
+                        const TriangleTree* scan_tree, std::vector<Place> places, int rings, const PatchGoal& goal,
+                        const LocalRefinementOptions& options, Changes& result) {
   std::vector<Place> left;
   std::vector<bool> covered;
   while (!places.empty()) {
@@ -161,37 +206,99 @@ std::vector<Place> mend(SurfaceMesh& mesh, FeatureNet& net, const ReferenceSurfa
     }
     if (batch.empty()) break;
     // The whole scan: cut along its creases, it has no side beyond them that a face next to one could agree with.
-    const std::vector<std::vector<std::uint32_t>> scan_faces = scan_faces_near(scan.whole, batch);
+    const std::vector<std::vector<std::uint32_t>> scan_faces = scan_faces_near(scan.whole, scan_tree, batch);
     PatchGoal part = goal;
-    part.most_vertices = (options.most_vertices - std::min(options.most_vertices, result.inserted)) / batch.size();
+    part.most_vertices =
+        (options.most_vertices - std::min(options.most_vertices, result.counts.inserted)) / batch.size();
     std::vector<PatchOutcome> outcomes(batch.size());
     tbb::parallel_for(std::size_t{0}, batch.size(), [&](std::size_t i) {
-      outcomes[i] = batch[i].improve(mesh, scan.whole, scan_faces[i], net, part);
+      outcomes[i] = batch[i].improve(mesh, boxes.faces_around(mesh, batch[i]), scan.whole, scan_faces[i], net, part);
     });
     for (std::size_t i = 0; i < batch.size(); ++i) {
       if (!outcomes[i].reached) left.push_back(taken[i]);
       if (!outcomes[i].improved) continue;
+      const auto first_new = static_cast<std::uint32_t>(mesh.triangles.size());
       batch[i].write(mesh, net);
-      result.inserted += batch[i].inserted();
-      ++result.patches;
+      boxes.renew(mesh, batch[i].faces());
+      result.changed.insert(result.changed.end(), batch[i].faces().begin(), batch[i].faces().end());
+      for (std::uint32_t f = first_new; f < mesh.triangles.size(); ++f) result.changed.push_back(f);
+      result.scan_faces.insert(result.scan_faces.end(), scan_faces[i].begin(), scan_faces[i].end());
+      result.counts.inserted += batch[i].inserted();
+      ++result.counts.patches;
     }
     places = std::move(later);
   }
   return left;
 }
 
-LocalRefinementResult refine_places(SurfaceMesh& mesh, FeatureNet& net, const ReferenceSurface& scan,
-                                    const std::vector<double>& deviation, const LocalRefinementOptions& options) {
+Changes refine_places(SurfaceMesh& mesh, FeatureNet& net, const ReferenceSurface& scan, const TriangleTree* scan_tree,
+                      const std::vector<double>& deviation, const LocalRefinementOptions& options) {
   PatchGoal goal;
   goal.limit = goal_limit(options);
   goal.fidelity = options.fidelity_of_diagonal * scan.diagonal;
   goal.least_angle_deg = options.least_angle_deg;
   std::vector<Place> places = places_beyond(deviation, goal.limit);
-  LocalRefinementResult result;
-  for (int rings = fewest_rings; rings <= most_rings && !places.empty(); ++rings)
-    places = mend(mesh, net, scan, std::move(places), rings, goal, options, result);
+  Changes result;
+  BoxesOfSurface boxes(mesh);
+  for (int rings = fewest_rings; rings <= most_rings && !places.empty(); ++rings) {
+    goal.may_place = rings == most_rings;
+    places = mend(mesh, boxes, net, scan, scan_tree, std::move(places), rings, goal, options, result);
+  }
   return result;
 }
+
+// Bounds of the deviation that are renewed only where something has changed.
+class KnownDeviation {
+ public:
+  KnownDeviation(const SurfaceMesh& mesh, const SurfaceMesh& scan, double limit)
+      : scan_(scan), limit_(limit), bound_(bound_deviation(mesh, scan_, {.limit = limit})) {}
+
+  double largest() const {
+    const auto of = [](const std::vector<double>& upper) { return *std::max_element(upper.begin(), upper.end()); };
+    return std::max(of(bound_.to_reference.upper), of(bound_.to_mesh.upper));
+  }
+  const std::vector<double>& of_mesh() const { return bound_.to_reference.upper; }
+  const TriangleTree& scan_tree() const { return scan_.tree(); }
+
+  FarPoints far_points(const ReferenceSurface& scan) const {
+    FarPoints far;
+    for (std::uint32_t f = 0; f < scan.mesh.triangles.size(); ++f)
+      if (bound_.to_mesh.upper[f] > limit_)
+        far.add(bound_.to_mesh.farthest[f], scan.face_normals[f], bound_.to_mesh.upper[f]);
+    return far;
+  }
+
+  // A face of the scan that was within the limit of a patch lies in the patch's box, which reaches farther: of the
+  // others, what was within the limit still is, and what was not is asked again.
+  void renew(const SurfaceMesh& mesh, const Changes& changes) {
+    OneSidedDeviation &of_mesh = bound_.to_reference, &of_scan = bound_.to_mesh;
+    for (std::vector<double>* bounds : {&of_mesh.lower, &of_mesh.upper}) bounds->resize(mesh.triangles.size());
+    of_mesh.farthest.resize(mesh.triangles.size());
+    renew(mesh, changes.changed, scan_, of_mesh);
+    std::vector<std::uint32_t> touched = changes.scan_faces;
+    for (std::uint32_t f = 0; f < of_scan.upper.size(); ++f)
+      if (of_scan.upper[f] > limit_) touched.push_back(f);
+    renew(scan_.mesh(), touched, DeviationReference(mesh), of_scan);
+  }
+
+ private:
+  void renew(const SurfaceMesh& from, std::vector<std::uint32_t> faces, const DeviationReference& onto,
+             OneSidedDeviation& known) const {
+    std::sort(faces.begin(), faces.end());
+    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    std::vector<std::uint32_t> vertices;
+    const OneSidedDeviation part = bound_one_sided_deviation(part_of(from, faces, vertices), onto, {.limit = limit_});
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      known.lower[faces[i]] = part.lower[i];
+      known.upper[faces[i]] = part.upper[i];
+      known.farthest[faces[i]] = part.farthest[i];
+    }
+  }
+
+  DeviationReference scan_;
+  double limit_;
+  DeviationBound bound_;
+};
 
 }  // namespace
 
@@ -208,7 +315,7 @@ LocalRefinementResult refine_worst(SurfaceMesh& mesh, const ReferenceSurface& sc
     used.limit = std::max(used.limit, *next);
   }
   FeatureNet none;
-  return refine_places(mesh, none, scan, deviation, used);
+  return refine_places(mesh, none, scan, nullptr, deviation, used).counts;
 }
 
 BoundedRefinementResult refine_within(SurfaceMesh& mesh, const ReferenceSurface& scan,
@@ -221,28 +328,26 @@ BoundedRefinementResult refine_within(SurfaceMesh& mesh, FeatureNet& net, const 
                                       const LocalRefinementOptions& options, const Progress& progress) {
   check(options);
   net.patch_of_face.clear();
-  const DeviationReference reference(scan.mesh);
+  KnownDeviation known(mesh, scan.mesh, goal_limit(options));
   LocalRefinementOptions left = options;
   BoundedRefinementResult result;
   int yielded = 0;
   bool changed = false;
   for (int round = 0;; ++round) {
     progress("deviation", static_cast<double>(round) / options.rounds);
-    const DeviationBound bound = bound_deviation(mesh, reference, {.limit = goal_limit(options)});
-    result.largest_deviation = bound.upper();
+    result.largest_deviation = known.largest();
     if (result.largest_deviation <= options.limit || round == options.rounds) break;
-    FarPoints far;
-    for (std::uint32_t f = 0; f < scan.mesh.triangles.size(); ++f)
-      if (bound.to_mesh.upper[f] > goal_limit(options))
-        far.add(bound.to_mesh.farthest[f], scan.face_normals[f], bound.to_mesh.upper[f]);
-    std::vector<double> deviation = bound.to_reference.upper;
-    attribute(far, mesh, scan.mean_edge(mesh.triangles.size()), deviation);
+    std::vector<double> deviation = known.of_mesh();
+    attribute(known.far_points(scan), mesh, scan.mean_edge(mesh.triangles.size()), deviation);
     left.most_vertices = options.most_vertices - std::min(options.most_vertices, result.changes.inserted);
-    const LocalRefinementResult changes = refine_places(mesh, net, scan, deviation, left);
-    result.changes.patches += changes.patches;
-    result.changes.inserted += changes.inserted;
-    changed = changed || changes.patches > 0;
-    if (changes.patches > 0) continue;
+    const Changes changes = refine_places(mesh, net, scan, &known.scan_tree(), deviation, left);
+    result.changes.patches += changes.counts.patches;
+    result.changes.inserted += changes.counts.inserted;
+    changed = changed || changes.counts.patches > 0;
+    if (changes.counts.patches > 0) {
+      known.renew(mesh, changes);
+      continue;
+    }
     if (yielded == most_yielding && !changed) break;
     if (yielded == most_yielding) changed = false;
     yielded = (yielded + 1) % (most_yielding + 1);

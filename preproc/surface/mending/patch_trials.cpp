@@ -1,45 +1,91 @@
 #include "preproc/surface/mending/patch_trials.hpp"
 
 #include "preproc/surface/fit/shape_fit.hpp"
-#include "preproc/surface/kernel/clear_moves.hpp"
 #include "preproc/surface/kernel/locate.hpp"
 #include "preproc/surface/kernel/nearest.hpp"
-#include "preproc/surface/mending/defects.hpp"
 #include "preproc/surface/sizing/split_long_edges.hpp"
 #include "quality/deviation_bound.hpp"
-#include "quality/face_blocks.hpp"
+#include "quality/self_intersections.hpp"
+#include "quality/triangle_measures.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <unordered_map>
 
 namespace scan2fea {
 namespace {
 
-// What a step must bring the merit down to. The merit is a fourth power of distances: 0.88 is 3 % less of them.
-constexpr double least_gain = 0.88;
-// How far apart the bounds of the deviation may be, see DeviationBoundOptions.
-constexpr double close_tolerance = 0.02;
-constexpr double rough_tolerance = 0.3;
 // Scan triangles longer than this part of the mean edge are cut, so that a patch answers for parts of large ones.
 constexpr double longest_scan_edge = 0.7;
 // Where the fit's extra weight on far samples begins, over the limit, and the most that it may be: a sample at twice
 // the limit has nearly all of it (see ShapeFitOptions::lift_tail_of_diagonal).
 constexpr double tail_of_limit = 0.5;
 constexpr double most_lift = 300;
+// Tetrahedra share the angle between two faces, mostly by two: no sharper angles are made than these times the least
+// of triangles, nor made sharper.
+constexpr double least_dihedral_over_least_angle = 2;
+// Faces beside a line of the part turn about it a little wherever they move; so much sharper it may become.
+constexpr double turning_about_line_deg = 5;
+// What samples may show of the limit: bounds are a little larger.
+constexpr double sampled_limit = 0.985;
+// A face is asked at the points of a grid of so many steps a side.
+constexpr int grid = 4;
 
 Vec3 centroid(const SurfaceMesh& mesh, const Triangle& t) {
   return (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3;
 }
 
 // The marked faces, as a surface of their own.
-SurfaceMesh selected(const SurfaceMesh& mesh, const std::vector<bool>& keep) {
-  std::vector<std::uint32_t> faces, vertices;
+SurfaceMesh selected(const SurfaceMesh& mesh, const std::vector<bool>& keep, std::vector<std::uint32_t>& vertices) {
+  std::vector<std::uint32_t> faces;
   for (std::uint32_t f = 0; f < keep.size(); ++f)
     if (keep[f]) faces.push_back(f);
   return part_of(mesh, faces, vertices);
+}
+
+// Sides of faces by edge, so that the two of one edge are neighbours in the list.
+struct Side {
+  FeatureEdge edge;
+  std::uint32_t corner;  // opposite to it
+};
+
+std::vector<Side> sorted_sides(const SurfaceMesh& mesh) {
+  std::vector<Side> sides;
+  sides.reserve(3 * mesh.triangles.size());
+  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f)
+    for (std::uint32_t k = 0; k < 3; ++k)
+      sides.push_back({feature_edge(mesh.triangles[f][(k + 1) % 3], mesh.triangles[f][(k + 2) % 3]), 3 * f + k});
+  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.edge < b.edge; });
+  return sides;
+}
+
+// Points of a grid over all faces, each once: calls visit(face, point) until it says false.
+template <class Visit>
+void for_each_sample(const SurfaceMesh& mesh, const Visit& visit) {
+  std::vector<bool> is_done(mesh.vertices.size(), false);
+  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+    const Triangle& t = mesh.triangles[f];
+    const Vec3& a = mesh.vertices[t[0]];
+    const Vec3 u = (mesh.vertices[t[1]] - a) / grid, v = (mesh.vertices[t[2]] - a) / grid;
+    for (int i = 0; i <= grid; ++i)
+      for (int j = 0; i + j <= grid; ++j) {
+        const int k = grid - i - j;
+        if ((i == 0) + (j == 0) + (k == 0) == 2) {
+          const std::uint32_t corner = k > 0 ? t[0] : i > 0 ? t[1] : t[2];
+          if (is_done[corner]) continue;
+          is_done[corner] = true;
+        }
+        // The two faces at an edge run along it in opposite ways.
+        if ((i == 0 && j > 0 && k > 0 && t[2] > t[0]) || (j == 0 && i > 0 && k > 0 && t[0] > t[1]) ||
+            (k == 0 && i > 0 && j > 0 && t[1] > t[2]))
+          continue;
+        if (!visit(f, a + i * u + j * v)) return;
+      }
+  }
 }
 
 }  // namespace
@@ -65,48 +111,26 @@ SurfaceMesh part_of(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& f
 }
 
 Surroundings::Surroundings(const SurfaceMesh& mesh, const PatchOutline& outline, const SurfaceMesh& patch,
-                           const SurfaceMesh& scan, const std::vector<std::uint32_t>& scan_faces, const PatchGoal& goal)
+                           const std::vector<std::uint32_t>& around, const SurfaceMesh& scan,
+                           const std::vector<std::uint32_t>& scan_faces, const PatchGoal& goal)
     : outline_(outline), goal_(goal) {
-  std::vector<std::uint32_t> around;
-  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f)
-    if (boxes_meet(box_of_face(mesh, f), outline.box) &&
-        !std::binary_search(outline.faces.begin(), outline.faces.end(), f))
-      around.push_back(f);
   std::vector<std::uint32_t> vertices = outline.vertices;
   frozen_ = part_of(mesh, around, vertices);
+  find_rim_normals(patch);
   cut_scan(scan, scan_faces, patch);
 }
 
-Trial Surroundings::judged(Trial trial) const {
-  Trial worst;
-  worst.inverted = std::numeric_limits<std::size_t>::max();
-  worst.missing_angles = std::numeric_limits<double>::infinity();
-  worst.merit = std::numeric_limits<double>::infinity();
-  judge(trial, worst);
-  return trial;
-}
-
-Trial Surroundings::fitted(Trial trial, const Trial& now) const {
-  const SurfaceMesh patch = trial.patch;
-  fit(trial);
-  judge(trial, now);
-  if (!trial.meets) return trial;
-  SurfaceMesh moved = with_frozen(patch);
-  if (!find_self_intersections(moved).empty()) return trial;
-  std::vector<Vec3> targets = moved.vertices;
-  std::copy(trial.patch.vertices.begin(), trial.patch.vertices.end(), targets.begin());
-  move_clear(moved, targets, 2);
-  trial.patch.vertices.assign(moved.vertices.begin(),
-                              moved.vertices.begin() + static_cast<std::ptrdiff_t>(trial.vertices()));
-  judge(trial, now);
-  return trial;
-}
-
-Trial Surroundings::placed(Trial trial, const Trial& now) const {
-  Vec3& point = trial.patch.vertices.back();
-  point = scan_tree_->closest(point, scan_tree_->leaf_order().front()).point;
-  judge(trial, now);
-  return trial;
+void Surroundings::find_rim_normals(const SurfaceMesh& patch) {
+  const std::vector<Side> sides = sorted_sides(patch);
+  std::vector<FeatureEdge> rim;
+  for (std::size_t i = 0; i < sides.size();) {
+    const bool is_shared = i + 1 < sides.size() && sides[i].edge == sides[i + 1].edge;
+    if (!is_shared) rim.push_back(sides[i].edge);
+    i += is_shared ? 2 : 1;
+  }
+  for (const Side& side : sorted_sides(frozen_))
+    if (std::binary_search(rim.begin(), rim.end(), side.edge))
+      rim_normals_.emplace_back(side.edge, area_vector(frozen_, frozen_.triangles[side.corner / 3]));
 }
 
 void Surroundings::cut_scan(const SurfaceMesh& scan, const std::vector<std::uint32_t>& scan_faces,
@@ -114,7 +138,7 @@ void Surroundings::cut_scan(const SurfaceMesh& scan, const std::vector<std::uint
   if (scan_faces.empty()) return;
   std::vector<std::uint32_t> vertices;
   scan_ = part_of(scan, scan_faces, vertices);
-  scan_tree_.emplace(scan_);
+  scan_reference_.emplace(scan_);
   const SurfaceMesh fine =
       refine_scan(scan_, {std::vector<double>(scan_.vertices.size(), outline_.edge)}, longest_scan_edge, 8).mesh;
 
@@ -123,23 +147,50 @@ void Surroundings::cut_scan(const SurfaceMesh& scan, const std::vector<std::uint
   const std::vector<Triangle> neighbours = face_neighbours(around, stars);
   const std::vector<Vec3> normals = face_normals(around);
   const WalkableMesh on{around, stars, neighbours, normals};
-  const TriangleTree tree(around);
   std::vector<Vec3> centroids(fine.triangles.size());
   for (std::size_t f = 0; f < centroids.size(); ++f) centroids[f] = centroid(fine, fine.triangles[f]);
   const std::vector<Vec3> fine_normals = face_normals(fine);
   const std::vector<std::uint32_t> start = nearest_vertices(centroids, fine_normals, around, outline_.edge);
+
+  const std::vector<bool> is_free = left_to_patch(fine.vertices, patch);
   std::vector<bool> fits(fine.triangles.size()), answered(fine.triangles.size());
-  const auto is_of_patch = [&](std::uint32_t face) { return face < patch.triangles.size(); };
+  std::vector<std::uint32_t> near(fine.vertices.size(), 0);
   for (std::size_t f = 0; f < fits.size(); ++f) {
+    const Triangle& t = fine.triangles[f];
     const std::uint32_t first = stars.corners(start[f]).front() / 3;
-    fits[f] = is_of_patch(descend_to_nearest(on, {centroids[f], fine_normals[f], 0}, first).face);
-    answered[f] = fits[f] || is_of_patch(tree.closest(centroids[f], first).triangle);
-    for (const std::uint32_t v : fine.triangles[f])
-      answered[f] = answered[f] || is_of_patch(tree.closest(fine.vertices[v], first).triangle);
+    const std::uint32_t face = descend_to_nearest(on, {centroids[f], fine_normals[f], 0}, first).face;
+    fits[f] = face < patch.triangles.size();
+    answered[f] = is_free[t[0]] || is_free[t[1]] || is_free[t[2]];
+    if (!fits[f]) continue;
+    for (const std::uint32_t v : t) near[v] = patch.triangles[face][0];
   }
-  answered_ = selected(fine, answered);
-  fit_part_ = selected(fine, fits);
+  std::vector<std::uint32_t> of_fit, of_answered;
+  answered_ = selected(fine, answered, of_answered);
+  to_answer_ = answered_.vertices;
+  for (const Triangle& t : answered_.triangles) to_answer_.push_back(centroid(answered_, t));
+  const std::vector<bool> is_own = left_to_patch(to_answer_, patch);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < to_answer_.size(); ++i)
+    if (is_own[i]) to_answer_[kept++] = to_answer_[i];
+  to_answer_.resize(kept);
+  fit_part_ = selected(fine, fits, of_fit);
+  for (const std::uint32_t v : of_fit) start_of_fit_.push_back(near[v]);
   if (!fit_part_.triangles.empty()) fit_scan_.emplace(fit_part_);
+}
+
+std::vector<bool> Surroundings::left_to_patch(const std::vector<Vec3>& points, const SurfaceMesh& patch) const {
+  std::vector<bool> left(points.size(), true);
+  if (frozen_.triangles.empty()) return left;
+  const TriangleTree of_patch(patch), of_frozen(frozen_);
+  std::uint32_t hint = of_patch.leaf_order().front();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    left[i] = !of_frozen.closest_within(points[i], goal_.limit);
+    if (!left[i]) continue;
+    const ClosestPoint own = of_patch.closest(points[i], hint);
+    hint = own.triangle;
+    left[i] = !of_frozen.closest_within(points[i], std::sqrt(own.squared_distance));
+  }
+  return left;
 }
 
 SurfaceMesh Surroundings::with_frozen(const SurfaceMesh& patch) const {
@@ -156,14 +207,15 @@ SurfaceMesh Surroundings::with_frozen(const SurfaceMesh& patch) const {
   return mesh;
 }
 
-void Surroundings::fit(Trial& trial) const {
+void Surroundings::fit(Trial& trial, double fidelity) const {
   ShapeFitOptions options;
-  options.rounds = 6;
+  options.rounds = 4;
   options.hold_faces_below = 1;
   // The diagonal is that of a piece of the scan: on a tiny one the fidelity would pass 0.1, the most that a fit takes.
-  options.fidelity_of_diagonal = std::min(0.09, goal_.fidelity / fit_scan_->diagonal);
+  options.fidelity_of_diagonal = std::min(0.09, fidelity / fit_scan_->diagonal);
   options.lift_tail_of_diagonal = tail_of_limit * goal_.limit / fit_scan_->diagonal;
   options.most_lift = most_lift;
+  options.nearest_vertex_of_scan_vertex = start_of_fit_;
   options.constraints.assign(trial.vertices(), VertexConstraint::free);
   for (std::size_t v = 0; v < outline_.rim.size(); ++v)
     if (outline_.rim[v]) options.constraints[v] = VertexConstraint::fixed;
@@ -172,67 +224,121 @@ void Surroundings::fit(Trial& trial) const {
   optimise_shape_and_fit(trial.patch, *fit_scan_, options);
 }
 
-// The cheaper questions first: most trials end at one of them.
-void Surroundings::judge(Trial& trial, const Trial& now) const {
-  trial.sound = trial.meets = false;
+void Surroundings::measure_shape(Trial& trial) const {
   const SurfaceMesh& patch = trial.patch;
-  for (const Vec3& p : patch.vertices)
-    if (!(p.array() > outline_.box.low.array()).all() || !(p.array() < outline_.box.high.array()).all())
-      trial.meets = true;
-  if (trial.meets) return;
-  const SurfaceDefects defects =
-      find_defects(patch, *fit_scan_, scan_vertices_of_faces(patch, *fit_scan_), goal_.least_angle_deg);
-  trial.inverted = defects.inverted.size();
-  trial.missing_angles = defects.missing_angles_deg;
-  if (trial.inverted > now.inverted || trial.missing_angles > now.missing_angles) return;
-  const SurfaceMesh around = with_frozen(patch);
-  std::vector<std::uint32_t> own(patch.triangles.size());
-  std::iota(own.begin(), own.end(), 0U);
-  trial.meets = !find_self_intersections(around, own).empty();
-  if (trial.meets) return;
-  // Most trials only make things worse, which bounds that are not close tell as well.
-  const auto bound_patch = [&](double tolerance) {
-    return bound_one_sided_deviation(patch, scan_, {.limit = goal_.limit, .tolerance = tolerance});
-  };
-  const double enough = least_gain * now.merit;
-  if (merit_of(bound_patch(rough_tolerance).lower) > enough) return;
-  const OneSidedDeviation of_patch = bound_patch(close_tolerance);
-  trial.merit = merit_of(of_patch.upper);
-  if (trial.merit > enough) return;
-  const OneSidedDeviation of_scan =
-      bound_one_sided_deviation(answered_, around, {.limit = goal_.limit, .tolerance = close_tolerance});
-  trial.merit += merit_of(of_scan.upper);
-  if (trial.merit > enough) return;
-  trial.sound = true;
-  trial.shape = 0;
+  trial.missing_angles = 0;
   for (const Triangle& t : patch.triangles)
-    trial.shape += shape_energy({}, patch.vertices[t[0]], patch.vertices[t[1]], patch.vertices[t[2]]).value;
-
-  trial.worst = of_patch.worst_face;
-  if (of_scan.largest_upper > of_patch.largest_upper)
-    trial.worst = face_at(patch, of_scan.farthest[of_scan.worst_face],
-                          area_vector(answered_, answered_.triangles[of_scan.worst_face]).normalized());
-}
-
-double Surroundings::merit_of(const std::vector<double>& deviation) const {
-  double merit = 0;
-  for (const double d : deviation) merit += std::pow(std::max(0.0, d / goal_.limit - 1), 4);
-  return merit;
-}
-
-std::uint32_t Surroundings::face_at(const SurfaceMesh& patch, const Vec3& point, const Vec3& normal) const {
-  std::uint32_t nearest = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::uint32_t f = 0; f < patch.triangles.size(); ++f) {
-    const auto& [a, b, c] = patch.triangles[f];
-    const Vec3 at = closest_point_on_triangle(point, patch.vertices[a], patch.vertices[b], patch.vertices[c]);
-    double squared = (point - at).squaredNorm();
-    if (area_vector(patch, patch.triangles[f]).dot(normal) < 0) squared += outline_.edge * outline_.edge;
-    if (squared >= least) continue;
-    least = squared;
-    nearest = f;
+    trial.missing_angles +=
+        std::max(0.0, goal_.least_angle_deg -
+                          smallest_angle_deg(patch.vertices[t[0]], patch.vertices[t[1]], patch.vertices[t[2]]));
+  trial.sharpest_deg = trial.sharpest_on_line_deg = 180;
+  const std::vector<Side> sides = sorted_sides(patch);
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const FeatureEdge edge = sides[i].edge;
+    const Triangle& t = patch.triangles[sides[i].corner / 3];
+    Vec3 beyond;
+    if (i + 1 < sides.size() && sides[i + 1].edge == edge) {
+      beyond = area_vector(patch, patch.triangles[sides[i + 1].corner / 3]);
+    } else if (i > 0 && sides[i - 1].edge == edge) {
+      continue;
+    } else {
+      const auto at = std::lower_bound(rim_normals_.begin(), rim_normals_.end(), edge,
+                                       [](const auto& rim, const FeatureEdge& wanted) { return rim.first < wanted; });
+      if (at == rim_normals_.end() || at->first != edge) continue;
+      beyond = at->second;
+    }
+    const std::uint32_t k = sides[i].corner % 3;
+    const Vec3 along = (patch.vertices[t[(k + 2) % 3]] - patch.vertices[t[(k + 1) % 3]]).normalized();
+    const double inside = interior_angle(area_vector(patch, t), beyond, along) * 180 / std::numbers::pi;
+    const bool on_line =
+        std::any_of(trial.lines.begin(), trial.lines.end(), [&](const LineEdge& line) { return line.edge() == edge; });
+    double& sharpest = on_line ? trial.sharpest_on_line_deg : trial.sharpest_deg;
+    sharpest = std::min({sharpest, inside, 360 - inside});
   }
-  return nearest;
+}
+
+bool Surroundings::keeps_shape(Trial& trial, const Trial& now) const {
+  for (const Vec3& p : trial.patch.vertices)
+    if (!(p.array() > outline_.box.low.array()).all() || !(p.array() < outline_.box.high.array()).all()) return false;
+  measure_shape(trial);
+  const double least_dihedral_deg = least_dihedral_over_least_angle * goal_.least_angle_deg;
+  return trial.missing_angles <= now.missing_angles &&
+         trial.sharpest_deg >= std::min(least_dihedral_deg, now.sharpest_deg) &&
+         trial.sharpest_on_line_deg >= std::min(least_dihedral_deg, now.sharpest_on_line_deg) - turning_about_line_deg;
+}
+
+void Surroundings::put_on_scan(Vec3& point) const {
+  point = scan_reference_->tree().closest(point).point;
+}
+
+bool Surroundings::is_folded(Trial& trial, const Trial& now) const {
+  measure_shape(trial);
+  return trial.sharpest_deg < 0.5 * std::min(least_dihedral_over_least_angle * goal_.least_angle_deg, now.sharpest_deg);
+}
+
+void Surroundings::sample_deviation(Trial& trial, double useful) const {
+  const SurfaceMesh& patch = trial.patch;
+  trial.certified = false;
+  trial.deviation.assign(patch.triangles.size(), 0);
+  trial.merit = std::numeric_limits<double>::infinity();
+  const double limit = sampled_limit * goal_.limit;
+  // Beyond this a single sample makes the merit useless.
+  const double far = limit * (1 + std::pow(useful, 0.25));
+  const auto is_useless = [&](std::uint32_t f, double squared_distance) {
+    trial.deviation[f] = std::max(trial.deviation[f], squared_distance);
+    return squared_distance > far * far;
+  };
+  const TriangleTree tree(patch);
+  std::uint32_t near = 0;
+  for (const Vec3& p : to_answer_) {
+    // Where the face of the point before is near enough, no other need be asked.
+    const auto& [a, b, c] = patch.triangles[near];
+    const Vec3 there = closest_point_on_triangle(p, patch.vertices[a], patch.vertices[b], patch.vertices[c]);
+    if ((p - there).squaredNorm() <= limit * limit) continue;
+    const ClosestPoint nearest = tree.closest(p, near);
+    near = nearest.triangle;
+    if (is_useless(near, nearest.squared_distance)) return;
+  }
+  std::uint32_t hint = scan_reference_->tree().leaf_order().front();
+  for_each_sample(patch, [&](std::uint32_t f, const Vec3& p) {
+    const ClosestPoint nearest = scan_reference_->tree().closest(p, hint);
+    hint = nearest.triangle;
+    return !is_useless(f, nearest.squared_distance);
+  });
+  for (double& d : trial.deviation) d = std::sqrt(d);
+  set_merit(trial);
+}
+
+void Surroundings::certify(Trial& trial) const {
+  const SurfaceMesh& patch = trial.patch;
+  const OneSidedDeviation of_patch = bound_one_sided_deviation(patch, *scan_reference_, {.limit = goal_.limit});
+  for (std::size_t f = 0; f < trial.deviation.size(); ++f)
+    trial.deviation[f] = std::max(trial.deviation[f], of_patch.upper[f]);
+  if (!answered_.triangles.empty()) {
+    const OneSidedDeviation of_scan = bound_one_sided_deviation(answered_, with_frozen(patch), {.limit = goal_.limit});
+    const TriangleTree tree(patch);
+    for (std::size_t f = 0; f < of_scan.upper.size(); ++f) {
+      if (!(of_scan.upper[f] > goal_.limit)) continue;
+      double& deviation = trial.deviation[tree.closest(of_scan.farthest[f]).triangle];
+      deviation = std::max(deviation, of_scan.upper[f]);
+    }
+  }
+  trial.certified = true;
+  set_merit(trial);
+}
+
+void Surroundings::set_merit(Trial& trial) const {
+  trial.merit = 0;
+  const double limit = trial.certified ? goal_.limit : sampled_limit * goal_.limit;
+  for (const double d : trial.deviation) trial.merit += std::pow(std::max(0.0, d / limit - 1), 4);
+  trial.worst = static_cast<std::uint32_t>(std::max_element(trial.deviation.begin(), trial.deviation.end()) -
+                                           trial.deviation.begin());
+}
+
+bool Surroundings::is_clear(const Trial& trial) const {
+  std::vector<std::uint32_t> own(trial.patch.triangles.size());
+  std::iota(own.begin(), own.end(), 0U);
+  return find_self_intersections(with_frozen(trial.patch), own).empty();
 }
 
 }  // namespace scan2fea

@@ -4,7 +4,7 @@
 #include "preproc/mesh/surface_mesh.hpp"
 #include "preproc/surface/features/feature_net.hpp"
 #include "preproc/surface/fit/reference_surface.hpp"
-#include "quality/triangle_tree.hpp"
+#include "quality/deviation_bound.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -18,6 +18,9 @@ struct PatchGoal {
   double fidelity = 0;            // residual that costs as much as F(eta) = 1 (see shape_fit.hpp), model units
   double least_angle_deg = 35;    // smaller angles are not made, nor made smaller
   std::size_t most_vertices = 0;  // that may be inserted
+  // Where nothing else helps, vertices are inserted on the scan and no fit follows: around a thorn fits go astray, and
+  // these lead them. Else they would only cost shape.
+  bool may_place = false;
 };
 
 // Where a patch was cut out of the surface; it stays as it was while the patch changes.
@@ -31,61 +34,77 @@ struct PatchOutline {
 
 // One state of a patch, and how good it is.
 struct Trial {
-  SurfaceMesh patch;
-  std::vector<LineEdge> lines;
-  bool sound = false;         // meets nothing, is within the box, no worse in shape than the state before, and nearer
-  bool meets = false;         // the surface around, or itself, or leaves the box
-  std::size_t inverted = 0;   // faces
-  double merit = 0;           // sum of ((deviation - limit) / limit)^4 over the faces of both sides beyond the limit
+  SurfaceMesh patch{};
+  std::vector<LineEdge> lines{};
   double missing_angles = 0;  // degrees
-  double shape = 0;           // sum of F(eta)
-  std::uint32_t worst = 0;    // face of the patch
+  // The sharpest angle between two faces, inside or outside of the body: elsewhere, and at edges on lines.
+  double sharpest_deg = 180, sharpest_on_line_deg = 180;
+  // Per face of the patch, of both sides: the scan's points belong to the face nearest to them.
+  std::vector<double> deviation{};
+  double merit = 0;         // sum of ((deviation - limit) / limit)^4 over the faces beyond the limit
+  bool certified = false;   // the deviation is an upper bound for all points, not of samples
+  std::uint32_t worst = 0;  // face of the patch
 
   std::size_t vertices() const { return patch.vertices.size(); }
-  bool is_better(const Trial& other) const {
-    if (merit > 0 || other.merit > 0) return merit < other.merit;
-    return vertices() != other.vertices() ? vertices() < other.vertices() : shape < other.shape;
-  }
 };
 
 // All that stays as it is while a patch changes.
 class Surroundings {
  public:
-  // `patch`: as it was cut out of `mesh`. `scan_faces`: those that the box meets. Keeps references to outline and goal.
-  Surroundings(const SurfaceMesh& mesh, const PatchOutline& outline, const SurfaceMesh& patch, const SurfaceMesh& scan,
+  // `patch`: as it was cut out of `mesh`. `around`: the other faces of the mesh that the box meets. `scan_faces`: those
+  // that it meets. Keeps references to outline and goal.
+  Surroundings(const SurfaceMesh& mesh, const PatchOutline& outline, const SurfaceMesh& patch,
+               const std::vector<std::uint32_t>& around, const SurfaceMesh& scan,
                const std::vector<std::uint32_t>& scan_faces, const PatchGoal& goal);
 
   // False where no part of the scan belongs to the patch: then there is nothing to try.
   bool has_scan() const { return fit_scan_.has_value(); }
 
-  // The state itself, without any fit.
-  Trial judged(Trial trial) const;
+  // Shape and fit, see shape_fit.hpp; residuals of `fidelity` cost as much as F(eta) = 1.
+  void fit(Trial& trial, double fidelity) const;
 
-  // The state after a fit, or as far towards it as nothing meets; shapes worse than those of `now` are not sound.
-  Trial fitted(Trial trial, const Trial& now) const;
+  void put_on_scan(Vec3& point) const;
 
-  // The state without a fit, its last vertex on the scan.
-  Trial placed(Trial trial, const Trial& now) const;
+  // All but the deviation. False where the trial leaves the box or is worse in shape than `now`: smaller angles than
+  // the least, or faces that close on one another more sharply than they did and than tetrahedra can bear.
+  bool keeps_shape(Trial& trial, const Trial& now) const;
+
+  // Whether faces close on one another so sharply that no fit will open them.
+  bool is_folded(Trial& trial, const Trial& now) const;
+
+  // The deviation of samples: much cheaper than a bound, and a little below it. Where the merit is more than `useful`
+  // it is only told that it is.
+  void sample_deviation(Trial& trial, double useful) const;
+
+  // Raises the deviation to a bound.
+  void certify(Trial& trial) const;
+
+  // Whether it meets neither itself nor the surface around.
+  bool is_clear(const Trial& trial) const;
 
  private:
   // Tells the parts of the scan for which the patch answers.
   void cut_scan(const SurfaceMesh& scan, const std::vector<std::uint32_t>& scan_faces, const SurfaceMesh& patch);
+  // Per point of the scan, whether it is the patch's to come within the limit of: nearer to it than to the surface
+  // around, and too far from that.
+  std::vector<bool> left_to_patch(const std::vector<Vec3>& points, const SurfaceMesh& patch) const;
+  void find_rim_normals(const SurfaceMesh& patch);
 
   SurfaceMesh with_frozen(const SurfaceMesh& patch) const;
-  void fit(Trial& trial) const;
-  void judge(Trial& trial, const Trial& now) const;
-  double merit_of(const std::vector<double>& deviation) const;
-
-  // The face of the patch nearest to a point of the scan, one that faces the other way only if all others are far.
-  std::uint32_t face_at(const SurfaceMesh& patch, const Vec3& point, const Vec3& normal) const;
+  void measure_shape(Trial& trial) const;
+  void set_merit(Trial& trial) const;
 
   const PatchOutline& outline_;
   const PatchGoal& goal_;
   SurfaceMesh frozen_;  // the surface around; the patch's vertices as they were come first
-  SurfaceMesh scan_;    // within the box
-  std::optional<TriangleTree> scan_tree_;
-  SurfaceMesh answered_;  // parts of it whose nearest face, whichever way that looks, was one of the patch
-  SurfaceMesh fit_part_;  // and those that belong to the patch
+  // Edges of the rim, sorted, and the normals of the faces beyond them.
+  std::vector<std::pair<FeatureEdge, Vec3>> rim_normals_;
+  SurfaceMesh scan_;  // within the box
+  std::optional<DeviationReference> scan_reference_;
+  SurfaceMesh answered_;                     // parts of it that the surface around is too far from
+  std::vector<Vec3> to_answer_;              // their vertices and centroids, of which the same holds
+  SurfaceMesh fit_part_;                     // and those that belong to the patch
+  std::vector<std::uint32_t> start_of_fit_;  // per vertex of it, one of the patch that is near
   std::optional<ReferenceSurface> fit_scan_;
 };
 

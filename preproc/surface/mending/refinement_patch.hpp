@@ -1,9 +1,10 @@
 // A piece of a surface around a place that lies too far from the scan, brought nearer by itself.
 //
-// Tries, in turn and all around the worst face: a fit with more weight on what is far (shape_fit.hpp), edges flipped
-// (an edge that runs along a ridge follows it, one that crosses it cuts it off), edges split at their middle, each
-// followed by that fit; takes what lowers the deviation most, and goes on from there. The rest of the surface stays as
-// it is, so that the triangles around are not disturbed and patches apart from each other can be worked on at once.
+// Tries, in turn: a fit with more weight on what is far (shape_fit.hpp), edges of the worst face and around it flipped
+// (an edge that runs along a ridge follows it, one that crosses it cuts it off), then split at their middle, the
+// longest first, each followed by that fit. The first that is within the limit is taken; where none is, what lowers the
+// deviation most, and it goes on from there. The rest of the surface stays as it is, so that the triangles around are
+// not disturbed and patches apart from each other can be worked on at once.
 #pragma once
 
 #include "preproc/mesh/surface_mesh.hpp"
@@ -35,11 +36,12 @@ class RefinementPatch {
   const BoundingBox& box() const { return outline_.box; }
   const std::vector<std::uint32_t>& faces() const { return outline_.faces; }
 
-  // `scan_faces`: those in the box, ascending. The patch never passes through itself or the surface around, and never
-  // inverts a face against the scan. A few ms a trial and thousand scan faces; about 20 trials a step, at most 6 steps.
-  // Deterministic, whatever the number of threads.
-  PatchOutcome improve(const SurfaceMesh& mesh, const SurfaceMesh& scan, const std::vector<std::uint32_t>& scan_faces,
-                       const FeatureNet& net, const PatchGoal& goal);
+  // `around`, `scan_faces`: other faces of the mesh, and faces of the scan, that the box meets, ascending. The patch
+  // never passes through itself or the surface around, and its faces never close on one another or the surface around
+  // more sharply than tetrahedra can bear. About a ms a trial and thousand scan faces. Deterministic, whatever the
+  // number of threads.
+  PatchOutcome improve(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& around, const SurfaceMesh& scan,
+                       const std::vector<std::uint32_t>& scan_faces, const FeatureNet& net, const PatchGoal& goal);
 
   std::size_t inserted() const { return patch_.vertices.size() - outline_.vertices.size(); }
 
