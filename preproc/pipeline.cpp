@@ -86,15 +86,31 @@ void describe(const EnrichResult& result, StageRecord& record) {
                     {"largest_height", result.largest_height}};
 }
 
+// What became of the sharp edges of the scan.
+void describe_features(const SimplifyResult& result, StageRecord& record) {
+  if (result.method == SimplifyMethod::lattice || result.feature_edges > 0) {
+    std::size_t unsupported = 0;
+    for (const UnsupportedCreases& dropped : result.unsupported_creases) unsupported += dropped.edges;
+    record.changes.emplace_back("feature_edges_before", static_cast<double>(result.feature_edges));
+    record.changes.emplace_back("feature_edges_unsupported", static_cast<double>(unsupported));
+    record.changes.emplace_back("feature_edges_too_fine", static_cast<double>(result.feature_edges_too_fine));
+    record.changes.emplace_back("feature_edges_after", static_cast<double>(result.feature_edges_kept));
+  }
+  for (const UnsupportedCreases& dropped : result.unsupported_creases)
+    record.remarks.push_back(std::to_string(dropped.edges) + " sharp edges in " + std::to_string(dropped.networks) +
+                             (dropped.networks == 1 ? " place, " : " places, the longest ") + "at " +
+                             coordinates(dropped.place) + ", are not kept as creases: " + describe(dropped.fault));
+  if (result.feature_edges_too_fine > 0)
+    record.remarks.push_back(std::to_string(result.feature_edges_too_fine) +
+                             " edges of creases are too fine for triangles of the wanted size");
+  if (!result.feature_remark.empty()) record.remarks.push_back(result.feature_remark);
+}
+
 void describe(const SimplifyResult& result, const TargetSize& size, StageRecord& record) {
   record.changes = {{"faces_before", static_cast<double>(result.faces_before)},
                     {"faces_after", static_cast<double>(result.faces_after)},
                     {"crossings_mended", static_cast<double>(result.crossings_mended)}};
-  if (result.feature_edges > 0) {
-    record.changes.emplace_back("feature_edges_before", static_cast<double>(result.feature_edges));
-    record.changes.emplace_back("feature_edges_after", static_cast<double>(result.feature_edges_kept));
-  }
-  if (!result.feature_remark.empty()) record.remarks.push_back(result.feature_remark);
+  describe_features(result, record);
   if (!result.size_remark.empty()) record.remarks.push_back(result.size_remark);
   if (result.largest_deviation > 0) record.changes.emplace_back("largest_deviation", result.largest_deviation);
   const auto* aim = std::get_if<LargestDeviation>(&size);

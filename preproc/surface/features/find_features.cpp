@@ -1,5 +1,6 @@
 #include "preproc/surface/features/find_features.hpp"
 
+#include "preproc/surface/features/crease_support.hpp"
 #include "preproc/surface/features/feature_chains.hpp"
 #include "preproc/surface/features/normal_filter.hpp"
 #include "preproc/surface/features/scan_noise.hpp"
@@ -107,7 +108,9 @@ Features find_features(const SurfaceMesh& scan, const FeatureOptions& options) {
   const double shortest = options.shortest_chain_of_diagonal * bounding_box(scan.vertices).diagonal();
   chains.drop_free_ends(shortest);
   if (noisy) chains.drop_small_nets(shortest, sharper_than_noise * *options.angle_deg);
-  result.edges = chains.marked();
+  JudgedCreases judged = judge_creases({scan, neighbours, face_normals(scan), result.noise}, chains.marked());
+  result.edges = std::move(judged.kept);
+  result.dropped = std::move(judged.dropped);
   return result;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "preproc/mesh/surface_mesh.hpp"
+#include "preproc/surface/features/crease_support.hpp"
 #include "preproc/surface/kernel/adjacency.hpp"
 
 #include <cstdint>
@@ -26,6 +27,7 @@ struct FeatureOptions {
 struct Features {
   std::vector<FeatureEdge> edges;  // sharp interior edges, sorted
   double noise = 0;                // estimated standard deviation of the scan's vertices along normals, model units
+  std::vector<UnsupportedCreases> dropped;  // sharp edges that are no creases of a part; see judge_creases
 };
 
 // Edges are judged by the normals of their two faces; where the scan's noise would tilt faces by several degrees, these

@@ -3,6 +3,7 @@
 #include "preproc/mesh/union_find.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace scan2fea {
 
@@ -20,6 +21,20 @@ Components find_components(const SurfaceMesh& mesh) {
     components.of_vertex[v] = root == v ? components.count++ : components.of_vertex[root];
   }
   return components;
+}
+
+std::vector<double> diagonals(const SurfaceMesh& mesh, const Components& components) {
+  std::vector<Vec3> low(components.count, Vec3::Constant(std::numeric_limits<double>::infinity())),
+      high(components.count);
+  for (Vec3& h : high) h = -low.front();
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const std::uint32_t c = components.of_vertex[v];
+    low[c] = low[c].cwiseMin(mesh.vertices[v]);
+    high[c] = high[c].cwiseMax(mesh.vertices[v]);
+  }
+  std::vector<double> diagonal;
+  for (std::size_t c = 0; c < components.count; ++c) diagonal.push_back((high[c] - low[c]).norm());
+  return diagonal;
 }
 
 std::vector<long> euler_characteristics(const SurfaceMesh& mesh, const Components& components,

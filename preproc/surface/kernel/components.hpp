@@ -18,6 +18,10 @@ struct Components {
 // Connected by sharing vertices; a vertex without a triangle is a component of its own. Nearly linear.
 Components find_components(const SurfaceMesh& mesh);
 
+// Per component the diagonal of its bounding box: sizes that go with a body's are of its own, since several in one file
+// may lie far apart. Linear.
+std::vector<double> diagonals(const SurfaceMesh& mesh, const Components& components);
+
 // V - E + F per component, where every edge has two triangles but those of `border`, which have one: 2 - 2 genus -
 // borders of a manifold one. Linear.
 std::vector<long> euler_characteristics(const SurfaceMesh& mesh, const Components& components,

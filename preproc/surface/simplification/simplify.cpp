@@ -79,7 +79,7 @@ Features features_of(const SurfaceMesh& mesh, const SimplifyOptions& options) {
   if (options.method != SimplifyMethod::lattice) return {};
   if (!options.given_features) return find_features(mesh, options.features);
   const MeshAdjacency adjacency(mesh);
-  return {match_features(mesh, adjacency.stars, *options.given_features), estimate_noise(mesh, adjacency)};
+  return {match_features(mesh, adjacency.stars, *options.given_features), estimate_noise(mesh, adjacency), {}};
 }
 
 CurveTolerance tolerance_of_curves(const SurfaceMesh& mesh, const TargetSize& size, double noise) {
@@ -173,9 +173,13 @@ Simplification::Simplification(const SurfaceMesh& scan, const SimplifyOptions& o
   Features features = features_of(scan, options);
   state.of_scan.faces_before = scan.triangles.size();
   state.of_scan.feature_edges = features.edges.size();
+  for (const UnsupportedCreases& dropped : features.dropped) state.of_scan.feature_edges += dropped.edges;
+  state.of_scan.unsupported_creases = std::move(features.dropped);
   state.of_scan.features = lines_of(scan, features.edges);
 
+  const std::size_t supported = features.edges.size();
   if (!options.given_features) features.edges = select_features(scan, std::move(features.edges), edge);
+  state.of_scan.feature_edges_too_fine = supported - features.edges.size();
   const CurveTolerance tolerance = tolerance_of_curves(scan, size, features.noise);
   state.parted = with_smaller_faces(scan, options, area, edge, features.edges);
   state.wanted_creases = features.edges.size();
