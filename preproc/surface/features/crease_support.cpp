@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <optional>
 
 namespace scan2fea {
@@ -37,6 +38,11 @@ constexpr double most_drift = 0.1;
 // corners have too short chains for it.
 constexpr double least_with_drift = 0.4;
 constexpr double most_unchecked = 0.35;
+
+// A triangle or two that lie folded over their neighbours have no more edges, and turn by more; their sides are single
+// faces, of which anything is smooth. The sharp edge of a wedge is longer.
+constexpr std::size_t most_edges_of_flap = 6;
+constexpr double least_turn_of_flap = 0.75 * std::numbers::pi;
 
 // Figures count up to this, so that some wild edges do not spoil a long crease.
 constexpr double most_counted = 1;
@@ -209,7 +215,7 @@ struct Mean {
 
 struct NetworkFigures {
   Mean spread, unevenness, zigzag, drift, tilt;
-  double length = 0;
+  double length = 0, angle = 0;  // the angle times the length, summed
   std::size_t edges = 0, free_ends = 0;
   std::uint32_t vertex = 0;  // one of its own
   Vec3 place = Vec3::Zero();
@@ -228,7 +234,12 @@ double beyond(double figure, double of_noise) {
   return std::sqrt(std::max(0.0, figure * figure - of_noise * of_noise));
 }
 
+bool is_flap(const NetworkFigures& net) {
+  return net.edges <= most_edges_of_flap && net.angle > least_turn_of_flap * net.length;
+}
+
 bool is_crease(const NetworkFigures& net, double noise, double diagonal) {
+  if (is_flap(net)) return false;
   const double spread = net.spread.value(), unevenness = net.unevenness.value(), zigzag = net.zigzag.value();
   const double sum = spread + unevenness + zigzag;
   if (static_cast<double>(net.free_ends) * diagonal > free_ends_per_diagonal * net.length)
@@ -244,6 +255,7 @@ bool is_crease(const NetworkFigures& net, double noise, double diagonal) {
 }
 
 CreaseFault fault_of(const NetworkFigures& net) {
+  if (is_flap(net)) return CreaseFault::folded;
   const double spread = net.spread.value(), unevenness = net.unevenness.value(), zigzag = net.zigzag.value();
   if (spread >= std::max(unevenness, zigzag)) return CreaseFault::rounded;
   return unevenness >= zigzag ? CreaseFault::uneven : CreaseFault::zigzag;
@@ -284,6 +296,7 @@ std::map<std::uint32_t, NetworkFigures> network_figures(const CreaseSurface& sur
       net.place = (surface.scan.vertices[e.ends[0]] + surface.scan.vertices[e.ends[1]]) / 2;
     }
     net.length += e.length;
+    net.angle += e.length * e.angle;
     net.spread.add(ratio(e.spread, e.angle), e.length);
     net.tilt.add(ratio(e.tilt, e.angle), e.length);
     net.zigzag.add(networks.zigzag(i), e.length);
@@ -310,6 +323,8 @@ std::string describe(CreaseFault fault) {
       return "their angle is uneven";
     case CreaseFault::zigzag:
       return "their line is jagged";
+    case CreaseFault::folded:
+      return "single triangles are folded over";
   }
   return {};
 }

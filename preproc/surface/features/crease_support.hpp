@@ -12,13 +12,15 @@
 
 namespace scan2fea {
 
-// What is wrong with sharp edges that are not kept: the largest of these figures, means over the length of a network.
+// What is wrong with sharp edges that are not kept: the largest of the first three figures, means over the length of a
+// network.
 // Creases of parts, with planes, cylinders or other smooth faces beside them, have 0 to 0.06, 0 to 0.13 and 0 to 0.02,
 // folds of organic scans 0.1 to 0.5, 0.15 to 0.5 and 0.02 to 0.3.
 enum class CreaseFault {
   rounded,  // how far the surface turns across the crease at the next edges beside it, over the crease's own angle
   uneven,   // how the angle changes from edge to edge, over itself
   zigzag,   // turns of the line that cancel from vertex to vertex, radians
+  folded,   // a triangle or two, folded over their neighbours
 };
 std::string describe(CreaseFault fault);  // of sharp edges, as the end of a sentence
 
