@@ -86,23 +86,22 @@ void describe(const EnrichResult& result, StageRecord& record) {
                     {"largest_height", result.largest_height}};
 }
 
-// What became of the sharp edges of the scan.
+// What became of the sharp edges of the scan. Gates may name the figures, so that they are there even where all are 0.
 void describe_features(const SimplifyResult& result, StageRecord& record) {
-  if (result.method == SimplifyMethod::lattice || result.feature_edges > 0) {
-    std::size_t unsupported = 0;
-    for (const UnsupportedCreases& dropped : result.unsupported_creases) unsupported += dropped.edges;
-    record.changes.emplace_back("feature_edges_before", static_cast<double>(result.feature_edges));
-    record.changes.emplace_back("feature_edges_unsupported", static_cast<double>(unsupported));
-    record.changes.emplace_back("feature_edges_too_fine", static_cast<double>(result.feature_edges_too_fine));
-    record.changes.emplace_back("feature_edges_after", static_cast<double>(result.feature_edges_kept));
-  }
+  std::size_t unsupported = 0;
+  for (const UnsupportedCreases& dropped : result.unsupported_creases) unsupported += dropped.edges;
+  record.changes.emplace_back("feature_edges_before", static_cast<double>(result.feature_edges));
+  record.changes.emplace_back("feature_edges_unsupported", static_cast<double>(unsupported));
+  record.changes.emplace_back("feature_edges_too_fine", static_cast<double>(result.feature_edges_too_fine));
+  record.changes.emplace_back("feature_edges_after", static_cast<double>(result.feature_edges_kept));
   for (const UnsupportedCreases& dropped : result.unsupported_creases)
     record.remarks.push_back(std::to_string(dropped.edges) + " sharp edges in " + std::to_string(dropped.networks) +
                              (dropped.networks == 1 ? " place, " : " places, the longest ") + "at " +
                              coordinates(dropped.place) + ", are not kept as creases: " + describe(dropped.fault));
   if (result.feature_edges_too_fine > 0)
-    record.remarks.push_back(std::to_string(result.feature_edges_too_fine) +
-                             " edges of creases are too fine for triangles of the wanted size");
+    record.remarks.push_back(
+        std::to_string(result.feature_edges_too_fine) +
+        " edges of creases are too short, or their faces too small, for triangles of the wanted size");
   if (!result.feature_remark.empty()) record.remarks.push_back(result.feature_remark);
 }
 
@@ -196,6 +195,8 @@ PipelineResult run_pipeline(SurfaceMesh scan, const PipelineOptions& options, co
       search.emplace(dense, simplification);
       made.simplified = search->run(made.surface, progress);
       describe(made.simplified, simplification.size, record);
+      if (simplification.given_features && simplification.given_features->segments.empty())
+        record.remarks.emplace_back("the file of features has no lines: no edges are kept");
     });
   else
     made.surface = dense;

@@ -123,6 +123,7 @@ WrongUsage wrong_name(std::string what, std::string_view name, std::string advic
 }
 
 std::string full_name(std::string_view name) {
+  if (name.starts_with("stages.")) return std::string(name);  // which figures a stage has is known when it has run
   const std::vector<std::string> names = all_names();
   std::vector<std::string> matches;
   bool is_group = false;  // edge_ratio is a figure of the volume mesh, but of the surface it is five
@@ -137,14 +138,24 @@ std::string full_name(std::string_view name) {
   return matches[0];
 }
 
+// Null where there is none. Stages are a list of objects with a name.
+const Json* member(const Json& json, const std::string& name) {
+  if (json.is_array()) {
+    const auto stage =
+        std::find_if(json.begin(), json.end(), [&](const Json& s) { return s.value("name", "") == name; });
+    return stage == json.end() ? nullptr : &*stage;
+  }
+  const auto found = json.find(name);
+  return found == json.end() ? nullptr : &*found;
+}
+
 // Null where the report has no figure of this name.
 Json figure_of(const Gate& gate, const Json& report) {
   const Json* json = &report;
   for (std::size_t begin = 0; begin <= gate.name.size();) {
     const std::size_t end = std::min(gate.name.find('.', begin), gate.name.size());
-    const auto found = json->find(gate.name.substr(begin, end - begin));
-    if (found == json->end()) return nullptr;
-    json = &*found;
+    json = member(*json, gate.name.substr(begin, end - begin));
+    if (json == nullptr) return nullptr;
     begin = end + 1;
   }
   return *json;

@@ -24,8 +24,9 @@ struct GateResult {
 };
 
 // Of the form NAME OP LIMIT: a figure of the report's sections surface, deviation and volume_mesh, with or without the
-// section's name where one section alone has it; one of <= >= < > ==; a number, or true or false. Throws WrongUsage if
-// it is not that, naming the nearest figures where there is none of the name.
+// section's name where one section alone has it, or of a stage, as in stages.simplify.feature_edges_unsupported; one of
+// <= >= < > ==; a number, or true or false. Throws WrongUsage if it is not that, naming the nearest figures where there
+// is none of the name.
 Gate parse_gate(std::string_view text);
 
 // Throws WrongUsage where the report has no such figure, or the figure is null: deviation without a reference, the

@@ -75,6 +75,15 @@ TEST_F(Command, FeaturesThatWereWrittenCanBeGiven) {
   EXPECT_EQ(run_command(input + "--feature-angle 30 --features-from '" + edges + "'").exit_code, 2);
 }
 
+TEST_F(Command, AFileOfFeaturesWithoutLinesMeansNoneAndIsTold) {
+  write_surface(analytic::box({4, 3, 2}, 0.25), path("box.ply"));
+  write_text(path("edges.obj"), "v 0 0 0\n");
+  const auto result = run_command("surface '" + path("box.ply") + "' --faces 600 -o '" + path("out.ply") +
+                                  "' --features-from '" + path("edges.obj") + "'");
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.standard_error, HasSubstr("no lines"));
+}
+
 TEST_F(Command, GivenFeaturesMustBeOnTheScan) {
   write_text(path("edges.obj"), "v 0 0 0\nv 30 0 0\nl 1 2\n");
   const auto result = run_command("surface '" + scan_of_a_sphere() + "' -o '" + path("out.ply") +

@@ -56,6 +56,15 @@ TEST(Gates, NamesWithAndWithoutTheSection) {
   EXPECT_EQ(parse_gate("deviation.volume_difference_pct>=-1e-3").limit, -1e-3);
 }
 
+TEST(Gates, FiguresOfStages) {
+  Json report = report_of(analytic::box({1, 1, 1}, 1));
+  report["stages"] = {{{"name", "repair"}, {"seconds", 1}}, {{"name", "simplify"}, {"feature_edges_unsupported", 3}}};
+  EXPECT_TRUE(passes("stages.simplify.feature_edges_unsupported<=3", report));
+  EXPECT_FALSE(passes("stages.simplify.feature_edges_unsupported<=2", report));
+  EXPECT_THROW(passes("stages.simplify.seconds<=2", report), WrongUsage);
+  EXPECT_THROW(passes("stages.renewal.seconds<=2", report), WrongUsage);
+}
+
 TEST(Gates, YesAndNo) {
   SurfaceMesh open = analytic::sphere(1, 1);
   EXPECT_TRUE(passes("closed==true", report_of(open)));

@@ -255,7 +255,7 @@ void add_simplify_flags(CLI::App& command, SimplifyOptions& options) {
             options.features.angle_deg = angle;
             options.features.continuation_angle_deg = std::min(options.features.continuation_angle_deg, angle);
           },
-          "Edges whose faces' normals differ by more are kept, degrees (40); off for organic scans")
+          "Creases whose faces' normals differ by more are kept, degrees (40); off: none")
       ->type_name("DEG|off");
 }
 

@@ -34,6 +34,7 @@ struct Features {
 // are filtered first (Zheng et al., "Bilateral Normal Filtering for Mesh Denoising", TVCG 2011: the local scheme).
 // The noise is the median residual of vertices from quadrics through their two rings, so at most half of them may lie
 // near creases. Precondition: oriented, manifold, with or without borders. Linear but for a sort; serial.
+// What looks like a fold, a rounding or noise is left out (see judge_creases).
 // Not guaranteed: that chains are closed or end at one another; creases between normals that differ by less than about
 // twice what noise leaves after filtering.
 Features find_features(const SurfaceMesh& scan, const FeatureOptions& options = {});
