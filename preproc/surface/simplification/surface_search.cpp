@@ -18,9 +18,9 @@ namespace scan2fea {
 namespace {
 
 // Of triangles, over those of the first surface, that all together may be made.
-constexpr double most_work = 12;
+constexpr double most_work = 5;
 // A small part may cost so many whatever the first surface had: they cost nothing.
-constexpr double work_for_small = 20000;
+constexpr double work_for_small = 30000;
 
 // In one surface, over those that were wanted. A small part may have 8,000, but not more than forty times as many: who
 // asks for 20 does not want 8,000.
@@ -34,7 +34,7 @@ int patience(std::size_t triangles) {
 }
 
 // Two lattices of nearly the same sizes differ by about this; a smaller gain is chance.
-constexpr double worth_it_deg = 0.5;
+constexpr double worth_it_deg = 0.5, worth_it_of_deviation = 0.9;
 
 // Angles that are aimed at. Where time matters, the optimisation of the tetrahedra copes with smaller ones.
 constexpr double good_of_few_deg = 30, good_of_many_deg = 17;
@@ -191,15 +191,19 @@ SurfaceSearch::Trial SurfaceSearch::make(const Progress& progress) {
 
 void SurfaceSearch::judge_deviation(Trial& made, const Progress& progress) const {
   const double distance = wanted_.deviation->distance;
-  const PreparedScan& kept = *made.candidate.scan;
   const DeviationBound bound = bound_deviation(made.candidate.mesh, *reference_, {.limit = distance});
-  made.deviation = kept.by_vertex(deviation_at_scan(made.candidate.mesh, kept.reference(), bound),
-                                  [](double a, double b) { return std::max(a, b); });
-  made.candidate.largest_deviation = bound.upper();
+  note_deviation(made, bound);
   made.share_beyond = share_beyond(bound.to_reference, distance);
   made.mean_edge_ratio = measure_triangles(made.candidate.mesh).edge_ratio.mean;
   if (!holds(made) && !made.gave_way() && is_shapely(made) && made.share_beyond <= few_beyond)
     bring_within(made, progress);
+}
+
+void SurfaceSearch::note_deviation(Trial& made, const DeviationBound& bound) {
+  const PreparedScan& scan = *made.candidate.scan;
+  made.deviation = scan.by_vertex(deviation_at_scan(made.candidate.mesh, scan.reference(), bound),
+                                  [](double a, double b) { return std::max(a, b); });
+  made.candidate.largest_deviation = bound.upper();
 }
 
 // What the edge lengths leave too far is brought near place by place; then the exact volume.
@@ -223,7 +227,7 @@ void SurfaceSearch::bring_within(Trial& made, const Progress& progress) const {
         refine_within(surface, made.candidate.net, scan.reference(), options, progress);
     if (scan.is_closed())
       preserve_volume_clear(surface, scan.mesh, held_lines(made.candidate.net, surface.vertices.size()));
-    made.candidate.largest_deviation = bound_deviation(surface, *reference_, {.limit = deviation}).upper();
+    note_deviation(made, bound_deviation(surface, *reference_, {.limit = deviation}));
     if (holds(made) || refined.largest_deviation > options.limit) break;
   }
 }
@@ -267,7 +271,7 @@ bool SurfaceSearch::is_better(const Trial& made, const Trial& other) const {
 bool SurfaceSearch::gains(const Trial& made, const Trial& best) const {
   if (made.is_other_part != best.is_other_part) return best.is_other_part;
   if (holds(made) != holds(best)) return holds(made);
-  if (!holds(made)) return made.share_beyond < best.share_beyond;
+  if (!holds(made)) return made.candidate.largest_deviation < worth_it_of_deviation * best.candidate.largest_deviation;
   if (!is_shapely(best)) return made.mean_edge_ratio < best.mean_edge_ratio;
   return made.shape.sharpest() > best.shape.sharpest() + worth_it_deg;
 }
