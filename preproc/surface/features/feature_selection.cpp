@@ -55,15 +55,17 @@ std::vector<CreaseEdge> creases_with_patches(const SurfaceMesh& scan, const std:
 }
 
 // One round. Returns whether anything was joined.
-bool join_small_patches(const SurfaceMesh& scan, const std::vector<Vec3>& normals, double least_area,
-                        std::vector<FeatureEdge>& sharp) {
+bool join_small_patches(const SurfaceMesh& scan, const std::vector<Vec3>& normals, std::span<const double> edge_length,
+                        double least_triangles, std::vector<FeatureEdge>& sharp) {
   const CutSurface cut = cut_along(scan, sharp);
   const Components patches = find_components(cut.mesh);
   std::vector<std::uint32_t> patch_of_face;
-  std::vector<double> area(patches.count, 0);
-  for (const Triangle& t : cut.mesh.triangles) {
-    patch_of_face.push_back(patches.of_vertex[t[0]]);
-    area[patch_of_face.back()] += area_vector(cut.mesh, t).norm() / 2;
+  std::vector<double> room(patches.count, 0);  // triangles
+  for (std::size_t f = 0; f < cut.mesh.triangles.size(); ++f) {
+    const Triangle& t = scan.triangles[f];
+    patch_of_face.push_back(patches.of_vertex[cut.mesh.triangles[f][0]]);
+    const double length = (edge_length[t[0]] + edge_length[t[1]] + edge_length[t[2]]) / 3;
+    room[patch_of_face.back()] += area_vector(scan, t).norm() / (2 * equilateral_area * length * length);
   }
   const std::vector<CreaseEdge> creases = creases_with_patches(scan, sharp, patch_of_face, normals);
   // Between two patches: how long their border is, and how it bends.
@@ -84,7 +86,7 @@ bool join_small_patches(const SurfaceMesh& scan, const std::vector<Vec3>& normal
   for (const auto& [pair, border] : borders)
     for (const std::uint32_t p : pair) {
       const double bend = border.bend / border.length;
-      if (area[p] < least_area && bend < smoothest[p].bend) smoothest[p] = {bend, pair};
+      if (room[p] < least_triangles && bend < smoothest[p].bend) smoothest[p] = {bend, pair};
     }
   std::vector<std::array<std::uint32_t, 2>> opened;
   for (const Smoothest& s : smoothest)
@@ -93,7 +95,7 @@ bool join_small_patches(const SurfaceMesh& scan, const std::vector<Vec3>& normal
   std::sort(opened.begin(), opened.end());
   // A crease that ends inside a small patch goes with it.
   for (const CreaseEdge& c : creases) {
-    const bool inside = c.patches[0] == c.patches[1] && area[c.patches[0]] < least_area;
+    const bool inside = c.patches[0] == c.patches[1] && room[c.patches[0]] < least_triangles;
     if (inside || std::binary_search(opened.begin(), opened.end(), c.patches))
       sharp.erase(std::lower_bound(sharp.begin(), sharp.end(), c.edge));
   }
@@ -104,7 +106,11 @@ bool join_small_patches(const SurfaceMesh& scan, const std::vector<Vec3>& normal
 class Chains {
  public:
   Chains(const SurfaceMesh& scan, const std::vector<FeatureEdge>& sharp)
-      : sets_(scan.vertices.size()), length_(scan.vertices.size(), 0), free_ends_(scan.vertices.size(), 0) {
+      : sets_(scan.vertices.size()),
+        length_(scan.vertices.size(), 0),
+        free_ends_(scan.vertices.size(), 0),
+        bodies_(find_components(scan)),
+        diagonals_(diagonals(scan, bodies_)) {
     std::vector<int> degree(scan.vertices.size(), 0);
     for (const auto& [a, b] : sharp) {
       sets_.unite(a, b);
@@ -119,12 +125,15 @@ class Chains {
 
   std::uint32_t of(const FeatureEdge& edge) { return sets_.find(edge[0]); }
   double length(std::uint32_t chain) const { return length_[chain]; }
+  double length_of_body(std::uint32_t chain) const { return length_[chain] / diagonals_[bodies_.of_vertex[chain]]; }
   bool has_free_end(std::uint32_t chain) const { return free_ends_[chain] > 0; }
 
  private:
   UnionFind sets_;
   std::vector<double> length_;
   std::vector<int> free_ends_;
+  Components bodies_;
+  std::vector<double> diagonals_;
 };
 
 // The creases at each vertex, and how they bend.
@@ -213,17 +222,20 @@ class CreaseGraph {
 
 std::vector<FeatureEdge> select_features(const SurfaceMesh& scan, std::vector<FeatureEdge> sharp, double edge_length,
                                          const FeatureSelection& selection) {
+  return select_features(scan, std::move(sharp), std::vector<double>(scan.vertices.size(), edge_length), selection);
+}
+
+std::vector<FeatureEdge> select_features(const SurfaceMesh& scan, std::vector<FeatureEdge> sharp,
+                                         std::span<const double> edge_length, const FeatureSelection& selection) {
   std::sort(sharp.begin(), sharp.end());
   const std::vector<Vec3> normals = face_normals(scan);
-  const double least_area = selection.least_triangles * equilateral_area * edge_length * edge_length;
   for (int round = 0; round < most_rounds && !sharp.empty(); ++round)
-    if (!join_small_patches(scan, normals, least_area, sharp)) break;
+    if (!join_small_patches(scan, normals, edge_length, selection.least_triangles, sharp)) break;
   Chains chains(scan, sharp);
-  const double shortest_open = selection.shortest_open_of_diagonal * bounding_box(scan.vertices).diagonal();
   std::erase_if(sharp, [&](const FeatureEdge& e) {
     const std::uint32_t chain = chains.of(e);
-    const double shortest = chains.has_free_end(chain) ? shortest_open : selection.shortest_closed * edge_length;
-    return chains.length(chain) < shortest;
+    return chains.has_free_end(chain) ? chains.length_of_body(chain) < selection.shortest_open_of_diagonal
+                                      : chains.length(chain) < selection.shortest_closed * edge_length[e[0]];
   });
   return sharp;
 }

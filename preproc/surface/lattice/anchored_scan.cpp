@@ -25,6 +25,9 @@ constexpr double largest_tolerance_of_edge = 0.05;
 constexpr double gradation_from_curves = 0.25;
 // Rounds of sampling the curves and of telling the surface what came of it.
 constexpr int rounds_of_spacing = 2;
+// Curves are sampled as their corners, and the tolerance, ask for, but the surface beside them takes no shorter lengths
+// than this part of the wanted ones: two corners at nearly the same place would make all of it fine.
+constexpr double least_spacing = 0.1;
 // A sample so near to a vertex of its curve, in parts of the segment, takes the vertex.
 constexpr double snap = 1e-3;
 
@@ -93,8 +96,9 @@ void take_spacing(Welded& scan, const FeatureCurves& curves, const SampledPlaces
     const FeatureCurve& curve = curves.curves[c];
     const std::vector<double> along = spacing_along(arc_lengths(scan.mesh, curve), curve, places[c]);
     for (std::size_t i = 0; i < along.size(); ++i) {
+      const double asked = std::max(along[i], least_spacing * scan.edge_length[curve.vertices[i]]);
       double& s = spacing[curve.vertices[i]];
-      s = s > 0 ? std::min(s, along[i]) : along[i];
+      s = s > 0 ? std::min(s, asked) : asked;
     }
   }
   for (std::size_t v = 0; v < spacing.size(); ++v)
@@ -256,7 +260,7 @@ AnchoredScan anchor_scan(const FeatureScan& scan, const SizingOptions& options, 
                 .features = scan.sharp,
                 .closed = scan.border.empty()};
   welded.features.insert(welded.features.end(), scan.border.begin(), scan.border.end());
-  const double wanted = predicted_triangles(welded.mesh, {welded.edge_length});
+  double wanted = predicted_triangles(welded.mesh, {welded.edge_length});
   const auto refine = [&] {
     halve_long_edges(welded.mesh, welded.edge_length, welded.features, longest_scan_edge, longest_feature_edge);
   };
@@ -277,11 +281,12 @@ AnchoredScan anchor_scan(const FeatureScan& scan, const SizingOptions& options, 
   for (int round = 0; round < rounds_of_spacing; ++round) {
     sample();
     take_spacing(welded, curves, places);
-    scale_to(welded, wanted);
+    if (options.keeps_count) scale_to(welded, wanted);
     refine();
   }
   sample();
   take_spacing(welded, curves, places);
+  if (!options.keeps_count) wanted = predicted_triangles(welded.mesh, {welded.edge_length});
   insert_samples(welded, curves, places);
 
   AnchoredScan result;

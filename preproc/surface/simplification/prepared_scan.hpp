@@ -13,11 +13,27 @@
 namespace scan2fea {
 
 // The scan with the creases that a surface made of it is to keep. It never changes; where a surface can keep only some
-// of the creases, another one stands beside it (with_creases). It refers to the mesh, which must outlive it.
+// of the creases, another one stands beside it (with_creases). It refers to the meshes, which must outlive it.
 class PreparedScan {
  public:
   PreparedScan(const SurfaceMesh& surface, std::vector<FeatureEdge> creases, const CurveTolerance& tolerance_of_curves)
-      : mesh(surface), features_(surface, std::move(creases), tolerance_of_curves) {}
+      : PreparedScan(surface, surface, std::move(creases), tolerance_of_curves) {}
+  // `surface` is `scan_given` with smaller faces.
+  PreparedScan(const SurfaceMesh& scan_given, const SurfaceMesh& surface, std::vector<FeatureEdge> creases,
+               const CurveTolerance& tolerance_of_curves)
+      : given(scan_given), mesh(surface), features_(surface, std::move(creases), tolerance_of_curves) {}
+  // The same, keeping the surface.
+  PreparedScan(const SurfaceMesh& scan_given, std::shared_ptr<const SurfaceMesh> surface,
+               std::vector<FeatureEdge> creases, const CurveTolerance& tolerance_of_curves)
+      : PreparedScan(scan_given, *surface, std::move(creases), tolerance_of_curves) {
+    kept_ = std::move(surface);
+  }
+
+  PreparedScan with_creases(std::vector<FeatureEdge> creases) const {
+    PreparedScan other(given, mesh, std::move(creases), features_.tolerance);
+    other.kept_ = kept_;
+    return other;
+  }
 
   const FeatureScan& features() const { return features_; }
   const std::vector<FeatureEdge>& creases() const { return features_.sharp; }
@@ -52,9 +68,11 @@ class PreparedScan {
     return of_reference;
   }
 
+  const SurfaceMesh& given;  // before its faces were parted
   const SurfaceMesh& mesh;
 
  private:
+  std::shared_ptr<const SurfaceMesh> kept_;  // `mesh`, where nobody else keeps it
   FeatureScan features_;
   mutable std::optional<ReferenceSurface> reference_;
 };
@@ -64,7 +82,7 @@ using PreparedScanPointer = std::shared_ptr<const PreparedScan>;
 // The same scan with other creases; itself where they are the same.
 inline PreparedScanPointer with_creases(const PreparedScanPointer& scan, std::vector<FeatureEdge> creases) {
   if (creases == scan->creases()) return scan;
-  return std::make_shared<const PreparedScan>(scan->mesh, std::move(creases), scan->features().tolerance);
+  return std::make_shared<const PreparedScan>(scan->with_creases(std::move(creases)));
 }
 
 }  // namespace scan2fea

@@ -183,8 +183,8 @@ Simplification::Simplification(const SurfaceMesh& scan, const SimplifyOptions& o
   const CurveTolerance tolerance = tolerance_of_curves(scan, size, features.noise);
   state.parted = with_smaller_faces(scan, options, area, edge, features.edges);
   state.wanted_creases = features.edges.size();
-  const auto prepared =
-      std::make_shared<const PreparedScan>(state.parted ? *state.parted : scan, std::move(features.edges), tolerance);
+  const auto prepared = std::make_shared<const PreparedScan>(scan, state.parted ? *state.parted : scan,
+                                                             std::move(features.edges), tolerance);
   WantedSurface wanted;
   if (const auto* bound = std::get_if<LargestDeviation>(&size))
     wanted.deviation = *bound;

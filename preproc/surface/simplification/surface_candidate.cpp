@@ -5,11 +5,16 @@
 #include "preproc/surface/features/feature_selection.hpp"
 #include "preproc/surface/fit/preserve_volume.hpp"
 #include "preproc/surface/kernel/clear_moves.hpp"
+#include "preproc/surface/kernel/components.hpp"
+#include "preproc/surface/kernel/nearest.hpp"
 #include "preproc/surface/lattice/lattice.hpp"
 #include "preproc/surface/mending/local_moves.hpp"
 #include "preproc/surface/mending/local_refinement.hpp"
 #include "preproc/surface/mending/mend_surface.hpp"
 #include "preproc/surface/mending/wedges.hpp"
+#include "preproc/surface/simplification/scan_by_shape.hpp"
+#include "preproc/surface/sizing/shape_lengths.hpp"
+#include "preproc/surface/sizing/shorter_edges.hpp"
 #include "preproc/surface/sizing/split_long_edges.hpp"
 #include "quality/self_intersections.hpp"
 #include "quality/triangle_measures.hpp"
@@ -163,6 +168,34 @@ Candidate best_by_lattice(const PreparedScanPointer& scan, const SizingOptions& 
   return best.mesh.triangles.empty() ? failed : best;
 }
 
+// Whether a part kept its shape. The bounds are those of triangles that serve: a mean edge ratio that isotropic
+// remeshing reaches on parts, and a distance above that of the default job.
+bool keeps_shape(const Candidate& candidate) {
+  constexpr double worst_mean_edge_ratio = 1.25, largest_deviation = 0.003;  // of a body's diagonal
+  if (!candidate.failure.empty()) return false;
+  if (measure_triangles(candidate.mesh).edge_ratio.mean > worst_mean_edge_ratio) return false;
+  const Components bodies = find_components(candidate.mesh);
+  const std::vector<double> diagonal = diagonals(candidate.mesh, bodies);
+  for (std::size_t f = 0; f < candidate.faces(); ++f)
+    if (candidate.fit.largest_distance_of_face[f] >
+        largest_deviation * diagonal[bodies.of_vertex[candidate.mesh.triangles[f][0]]])
+      return false;
+  return true;
+}
+
+// Edges around the places where a surface failed, shorter.
+void shorten_where_failed(const Candidate& failed, double gradation, std::vector<double>& length) {
+  constexpr double factor = 0.6, reach = 3;  // edges
+  const SurfaceMesh& scan = failed.scan->mesh;
+  const std::vector<std::uint32_t> near =
+      nearest_vertices(failed.failed_at, std::vector<Vec3>(failed.failed_at.size(), Vec3::Zero()), scan, 0);
+  std::vector<ShorterEdges> places;
+  for (std::size_t i = 0; i < near.size(); ++i)
+    places.push_back({{failed.failed_at[i], reach * length[near[i]]}, factor});
+  shorten_around(places, scan, length);
+  limit_gradation(scan, gradation, length);
+}
+
 // Where the lattice gives way: contractions towards the same sizing, none of which makes faces meet, then the same fit.
 // Where the fit ends in crossings that cannot be mended, vertices go only as far towards it as nothing meets, and
 // where the shape needs more triangles than were asked for, it keeps them: this way always ends in a sound surface.
@@ -227,27 +260,37 @@ PreparedScanPointer without_short_creases(const Candidate& failed) {
                                                               longest * bounding_box(scan.mesh.vertices).diagonal()));
 }
 
-// The lattice with the creases; where triangles of the wanted size are too large for them, without the short ones, with
-// smaller triangles, or without any.
-Candidate by_lattice_with_creases(PreparedScanPointer scan, SizingOptions sizing, const FitPlan& plan,
-                                  const Progress& progress) {
-  constexpr int most_trials = 4;
+// Where the lattice failed with creases since triangles of the wanted size are too large for them: without the short
+// ones around, with smaller triangles, or without any.
+Candidate with_fewer_creases(Candidate failed, SizingOptions sizing, const FitPlan& plan, const Progress& progress) {
+  constexpr int most_trials = 3;
   constexpr int most_larger = 1;  // times
   constexpr double growth = 1.6;  // of the number of triangles
   const double wanted = sizing.triangles;
+  PreparedScanPointer scan = failed.scan;
   int larger = 0;
-  for (int trial = 0; trial < most_trials && scan->has_creases(); ++trial) {
-    Candidate candidate = best_by_lattice(scan, sizing, plan, progress);
-    if (candidate.failure.empty()) return candidate;
-    const PreparedScanPointer fewer = without_short_creases(candidate);
+  for (int trial = 0;; ++trial) {
+    const PreparedScanPointer fewer = without_short_creases(failed);
     if (fewer == scan) {
       if (larger++ == most_larger) break;
       sizing.triangles *= growth;
     }
     scan = fewer;
+    if (trial == most_trials || !scan->has_creases()) break;
+    failed = best_by_lattice(scan, sizing, plan, progress);
+    if (failed.failure.empty()) return failed;
   }
   sizing.triangles = wanted;
   return best_by_lattice(with_creases(scan, {}), sizing, plan, progress);
+}
+
+void refuse_failed(const Candidate& candidate, double triangles) {
+  if (!candidate.failure.empty())
+    throw NotMeshable({.what = "no valid surface of this size: " + candidate.failure,
+                       .where = {},
+                       .value = std::to_string(std::lround(triangles)) + " triangles",
+                       .limit = {},
+                       .advice = "more triangles (--faces, or a smaller --edge-length or --deviation)"});
 }
 
 }  // namespace
@@ -256,21 +299,49 @@ Candidate make_surface(const PreparedScanPointer& scan, const SizingOptions& siz
                        Effort effort, const Progress& progress) {
   FitPlan plan = plan_of(effort);
   plan.within_deviation = std::holds_alternative<LargestDeviation>(options.size);
-  Candidate candidate = options.method == SimplifyMethod::collapse
-                            ? by_collapse(scan, sizing.triangles, options, progress)
-                        : scan->has_creases() ? by_lattice_with_creases(scan, sizing, plan, progress)
-                                              : best_by_lattice(scan, sizing, plan, progress);
-  if (!candidate.failure.empty() && options.method == SimplifyMethod::lattice) {
+  if (options.method == SimplifyMethod::collapse) {
+    Candidate candidate = by_collapse(scan, sizing.triangles, options, progress);
+    refuse_failed(candidate, sizing.triangles);
+    return candidate;
+  }
+  Candidate candidate = best_by_lattice(scan, sizing, plan, progress);
+  if (plan.within_deviation ? candidate.failure.empty() : keeps_shape(candidate)) return candidate;
+  // A deviation asks for shorter edges itself.
+  if (!plan.within_deviation && is_part(scan->given)) {
+    Candidate by_shape = make_surface_by_shape(*scan, sizing, options, effort, progress);
+    if (by_shape.failure.empty()) return by_shape;
+  }
+  if (candidate.failure.empty()) return candidate;
+  if (scan->has_creases()) candidate = with_fewer_creases(std::move(candidate), sizing, plan, progress);
+  if (!candidate.failure.empty()) {
     std::string reason = std::move(candidate.failure);
     candidate = by_contraction(candidate.scan, sizing, plan, progress);
     candidate.fallback_reason = std::move(reason);
   }
-  if (!candidate.failure.empty())
-    throw NotMeshable({.what = "no valid surface of this size: " + candidate.failure,
-                       .where = {},
-                       .value = std::to_string(std::lround(sizing.triangles)) + " triangles",
-                       .limit = {},
-                       .advice = "more triangles (--faces, or a smaller --edge-length or --deviation)"});
+  refuse_failed(candidate, sizing.triangles);
+  return candidate;
+}
+
+Candidate make_surface_by_shape(const PreparedScan& scan, const SizingOptions& sizing, const SimplifyOptions& options,
+                                Effort effort, const Progress& progress) {
+  constexpr double most_triangles = 3, few_triangles = 40000;
+  constexpr int most_trials = 3;
+  FitPlan plan = plan_of(effort);
+  plan.within_deviation = true;  // small faces are held to the scan as large ones are
+  const double most = std::max(most_triangles * sizing.triangles, few_triangles);
+  ScanByShape by_shape = prepare_by_shape(scan, sizing, options, most);
+  Candidate candidate;
+  for (int trial = 0; trial < most_trials; ++trial) {
+    SizingOptions asked = sizing;
+    asked.gradation *= 2;
+    asked.keeps_count = false;
+    ask_for_lengths(by_shape.scan->mesh, by_shape.length, asked);
+    if (trial > 0 && asked.triangles > most) break;
+    candidate = best_by_lattice(by_shape.scan, asked, plan, progress);
+    if (candidate.failure.empty()) break;
+    shorten_where_failed(candidate, asked.gradation, by_shape.length);
+  }
+  candidate.lengths_by_shape = std::move(by_shape.length);
   return candidate;
 }
 

@@ -26,17 +26,26 @@ struct Candidate {
   std::string failure = {};          // empty where `mesh` is valid
   std::vector<Vec3> failed_at = {};  // places of what is wrong
   ShapeFitResult fit = {};
+  // Per vertex of `scan`, where edges of the wanted size were too long for its shape and shorter ones were asked for:
+  // then `scan` is another one, with smaller faces.
+  std::vector<double> lengths_by_shape = {};
   double largest_deviation = 0;  // from the scan, two-sided, an upper bound; 0 where it was not bounded
 
   std::size_t faces() const { return mesh.triangles.size(); }
   std::size_t feature_edges() const { return edges_of(net).size(); }
 };
 
-// By the method asked for or, where the lattice fails, by contraction. Where triangles of this size are too large for
-// the scan's creases, the candidate's scan has those that could be kept. Exact volume, and nothing that crosses itself.
-// Throws NotMeshable where no way is left.
+// By the method asked for or, where the lattice fails, by contraction. A part that does not keep its shape with the
+// wanted number of triangles gets more (make_surface_by_shape), unless a deviation is asked for. Where triangles of
+// this size are too large for the scan's creases, the candidate's scan has those that could be kept. Exact volume, and
+// nothing that crosses itself. Throws NotMeshable where no way is left.
 Candidate make_surface(const PreparedScanPointer& scan, const SizingOptions& sizing, const SimplifyOptions& options,
                        Effort effort, const Progress& progress);
+
+// By the lattice with edges as short as the scan's shape needs (shape_lengths.hpp), in places shorter where it fails:
+// as many triangles as that takes, up to three times the wanted ones or 40,000. `failure` says so where none came out.
+Candidate make_surface_by_shape(const PreparedScan& scan, const SizingOptions& sizing, const SimplifyOptions& options,
+                                Effort effort, const Progress& progress);
 
 // The largest distances are at a few fins and folds thinner than the triangles, far from all others: these places get
 // triangles of their own, so few that the count stays within what was asked for. Where the effort asks for it, and not

@@ -106,6 +106,7 @@ Candidate SurfaceSearch::run(const Progress& progress) {
   Trial latest = make(progress), best = latest;
   first_work_ = work_;
   if (options_.method != SimplifyMethod::lattice) return std::move(best.candidate);
+  bool was_by_shape = false;
   for (int in_vain = 0; !is_accepted(latest) && in_vain <= patience(latest.candidate.faces());) {
     const std::vector<double> length = length_;
     lower_lengths(latest);
@@ -114,7 +115,9 @@ Candidate SurfaceSearch::run(const Progress& progress) {
       break;
     }
     try {
-      latest = make(progress);
+      const bool by_shape = latest.gave_way() && wanted_.deviation && !was_by_shape;
+      was_by_shape |= by_shape;
+      latest = by_shape ? make_by_shape(progress) : make(progress);
     } catch (const NotMeshable&) {
       break;
     }
@@ -157,10 +160,12 @@ void SurfaceSearch::set_first_sizing(const Progress& progress) {
     // A quick first surface shows where edges of the curvature's lengths come too far from the scan.
     sizing_.sizing = Sizing::curvature;
     const Candidate first = make_surface(scan_, sizing_, options_, Effort::low, progress);
-    scan_ = first.scan;  // creases that it could not keep are not asked for again
-    error_factors_ = scan_->by_vertex(error_factors(first.mesh, scan_->reference(), error_renewal),
-                                      [](double a, double b) { return std::min(a, b); });
-    sizing_.factors = error_factors_;
+    if (first.lengths_by_shape.empty()) {
+      scan_ = first.scan;  // creases that it could not keep are not asked for again
+      error_factors_ = scan_->by_vertex(error_factors(first.mesh, scan_->reference(), error_renewal),
+                                        [](double a, double b) { return std::min(a, b); });
+      sizing_.factors = error_factors_;
+    }
   }
   if (wanted_.longest.empty()) return;
   const bool keeps_count = !std::holds_alternative<MeanEdgeLength>(options_.size);
@@ -174,7 +179,21 @@ void SurfaceSearch::set_first_sizing(const Progress& progress) {
 }
 
 SurfaceSearch::Trial SurfaceSearch::make(const Progress& progress) {
-  Trial made{.candidate = make_surface(scan_, sizing_, options_, options_.effort, progress)};
+  return judged(make_surface(scan_, sizing_, options_, options_.effort, progress), progress);
+}
+
+// Where no lattice of the wanted lengths came out: edges as short as the scan's shape needs.
+SurfaceSearch::Trial SurfaceSearch::make_by_shape(const Progress& progress) {
+  Candidate made = make_surface_by_shape(*scan_, sizing_, options_, options_.effort, progress);
+  return made.failure.empty() ? judged(std::move(made), progress) : make(progress);
+}
+
+SurfaceSearch::Trial SurfaceSearch::judged(Candidate candidate, const Progress& progress) {
+  Trial made{.candidate = std::move(candidate)};
+  if (!made.candidate.lengths_by_shape.empty()) {
+    scan_ = made.candidate.scan;
+    length_ = made.candidate.lengths_by_shape;
+  }
   work_ += static_cast<double>(made.candidate.faces());
   if (wanted_.deviation)
     judge_deviation(made, progress);
@@ -199,11 +218,18 @@ void SurfaceSearch::judge_deviation(Trial& made, const Progress& progress) const
     bring_within(made, progress);
 }
 
-void SurfaceSearch::note_deviation(Trial& made, const DeviationBound& bound) {
+void SurfaceSearch::note_deviation(Trial& made, const DeviationBound& bound) const {
   const PreparedScan& scan = *made.candidate.scan;
-  made.deviation = scan.by_vertex(deviation_at_scan(made.candidate.mesh, scan.reference(), bound),
-                                  [](double a, double b) { return std::max(a, b); });
   made.candidate.largest_deviation = bound.upper();
+  const auto largest = [](double a, double b) { return std::max(a, b); };
+  const auto at_scan = [&](const DeviationBound& of_its_faces) {
+    return scan.by_vertex(deviation_at_scan(made.candidate.mesh, scan.reference(), of_its_faces), largest);
+  };
+  // Edges as short as the shape needs came with a scan of other faces.
+  made.deviation =
+      &scan.mesh == &reference_->mesh()
+          ? at_scan(bound)
+          : at_scan(bound_deviation(made.candidate.mesh, scan.mesh, {.limit = wanted_.deviation->distance}));
 }
 
 // What the edge lengths leave too far is brought near place by place; then the exact volume.

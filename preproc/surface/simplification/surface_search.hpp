@@ -65,8 +65,10 @@ class SurfaceSearch {
 
   void set_first_sizing(const Progress& progress);
   Trial make(const Progress& progress);
+  Trial make_by_shape(const Progress& progress);
+  Trial judged(Candidate candidate, const Progress& progress);
   void judge_deviation(Trial& made, const Progress& progress) const;
-  static void note_deviation(Trial& made, const DeviationBound& bound);
+  void note_deviation(Trial& made, const DeviationBound& bound) const;
   void bring_within(Trial& made, const Progress& progress) const;
   void open_wedges_within(Trial& made) const;
   bool holds(const Trial& made) const;

@@ -30,6 +30,9 @@ struct SizingOptions {
   // Of several components each gets at least about so many triangles, so that small ones keep a shape and a closed
   // surface.
   double triangles_per_component = 60;
+  // Where creases ask for shorter edges along them, all others grow so that the number of triangles stays; or there are
+  // more triangles.
+  bool keeps_count = true;
   // Per scan vertex, multiplies the edge length (before clamping and grading); empty for none. Made from a measured
   // error, or from a user's boxes and spheres.
   std::span<const double> factors;
