@@ -69,12 +69,15 @@ double share_beyond(const OneSidedDeviation& side, double distance) {
   return static_cast<double>(beyond) / static_cast<double>(side.upper.size());
 }
 
-// Shorter edges where the deviation is too large; it goes with their square.
-void shorten_by_deviation(const std::vector<double>& deviation, double distance, std::vector<double>& length) {
+// Shorter edges where the deviation is too large; it goes with their square. By at least `least` where patches were
+// tried there in vain.
+void shorten_by_deviation(const std::vector<double>& deviation, double distance, double least,
+                          std::vector<double>& length) {
   constexpr double shortest_edge = 0.5;  // over the distance: shorter ones help nothing
   for (std::size_t v = 0; v < length.size(); ++v) {
-    const double ratio = std::sqrt(distance / std::max(deviation[v], distance));
-    length[v] = std::max(length[v] * std::max(ratio, most_shortening), std::min(length[v], shortest_edge * distance));
+    if (deviation[v] <= distance) continue;
+    const double factor = std::clamp(std::sqrt(distance / deviation[v]), most_shortening, least);
+    length[v] = std::max(factor * length[v], std::min(length[v], shortest_edge * distance));
   }
 }
 
@@ -241,6 +244,7 @@ void SurfaceSearch::bring_within(Trial& made, const Progress& progress) const {
   // What the patches' fits must follow, over the deviation; no looser than mending is (MendOptions), and not so tight
   // that shape has no say.
   constexpr double fidelity = 0.3, tightest = 1e-4, loosest = 1.6e-3;
+  made.was_mended = true;
   const double deviation = wanted_.deviation->distance;
   const PreparedScan& scan = *made.candidate.scan;
   SurfaceMesh& surface = made.candidate.mesh;
@@ -321,7 +325,9 @@ void SurfaceSearch::lower_lengths(const Trial& latest) {
   if (latest.gave_way() || (lost && latest.has_many_bad()) || latest.is_other_part) {
     everywhere = least_shortening;
   } else {
-    if (!holds(latest)) shorten_by_deviation(latest.deviation, wanted_.deviation->distance, length_);
+    if (!holds(latest))
+      shorten_by_deviation(latest.deviation, wanted_.deviation->distance, latest.was_mended ? least_shortening : 1,
+                           length_);
     if (!is_shapely(latest)) everywhere = shortening_for_shape(latest.mean_edge_ratio);
     if (holds(latest) && is_shapely(latest)) shorten_around(latest.shape.bad, scan_->mesh, length_);
   }

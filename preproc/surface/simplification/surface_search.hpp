@@ -56,6 +56,7 @@ class SurfaceSearch {
     double mean_edge_ratio = 1;
     double share_beyond = 0;             // of the faces, farther from the scan than wanted, before places were mended
     std::vector<double> deviation = {};  // around each vertex of the scan; empty where it is no judge
+    bool was_mended = false;             // place by place
     bool is_other_part = false;          // a small part without its edges is another part
 
     bool gave_way() const { return !candidate.fallback_reason.empty(); }
