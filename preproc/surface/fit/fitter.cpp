@@ -251,6 +251,14 @@ double Fitter::lift(double squared_distance) const {
   return std::min(1 + ratio * ratio, options_.most_lift);
 }
 
+double Fitter::weight_of_body(const ByFace& by_face, std::size_t f) const {
+  if (scan_.weight_of_body.empty()) return 1;
+  if (by_face.first[f] < by_face.first[f + 1])
+    return scan_.weight_of_body[forward_.vertex[by_face.order[by_face.first[f]]]];
+  if (on_scan_.empty()) return 1;
+  return scan_.weight_of_body[scan_.mesh.triangles[on_scan_[face_samples.size() * f].face][0]];
+}
+
 void Fitter::reset_and_condense(const ByFace& by_face) {
   located_ = mesh_.vertices;
   const double share = options_.both_sides ? 0.5 : 1.0;
@@ -260,11 +268,13 @@ void Fitter::reset_and_condense(const ByFace& by_face) {
       fit.normal = normals_[f];
       const double area = area_vector(mesh_, mesh_.triangles[f]).norm() / 2;
       const double held_area = options_.hold_faces_below * scan_.area / static_cast<double>(fits_.size());
-      const double hold = area > 0 ? std::clamp(held_area / area, 1.0, 100.0) : 1.0;
+      const double body = weight_of_body(by_face, f);
+      const double hold = body * (area > 0 ? std::clamp(held_area / area, 1.0, 100.0) : 1.0);
       for (std::uint32_t k = by_face.first[f]; k < by_face.first[f + 1]; ++k) {
         const std::uint32_t s = by_face.order[k];
         const Vec3 to_target = forward_.samples[s].point - point_at(mesh_, locations_[s]);
-        const double w = hold * share * weight_unit_ * forward_.samples[s].weight * lift(to_target.squaredNorm());
+        const double w =
+            hold * share * weight_unit_ * forward_.samples[s].weight * lift(body * to_target.squaredNorm());
         add_sample(fit, locations_[s].barycentric, to_target, w, locations_[s].clamped);
       }
       if (options_.both_sides && has_free_vertex(f)) {
@@ -272,7 +282,7 @@ void Fitter::reset_and_condense(const ByFace& by_face) {
           const Vec3 on_scan = point_at(scan_.mesh, on_scan_[face_samples.size() * f + k]);
           const Vec3 to_target = on_scan - point_at(mesh_, {static_cast<std::uint32_t>(f), false, face_samples[k]});
           add_sample(fit, face_samples[k], to_target,
-                     hold * share * weight_unit_ * area / 4 * lift(to_target.squaredNorm()), false);
+                     hold * share * weight_unit_ * area / 4 * lift(body * to_target.squaredNorm()), false);
         }
       }
       fits_[f] = fit;

@@ -69,6 +69,8 @@ class Fitter {
 
   // The factor on a sample's weight by its distance, see ShapeFitOptions::lift_tail_of_diagonal.
   double lift(double squared_distance) const;
+  // Of the body that the face lies on.
+  double weight_of_body(const ByFace& by_face, std::size_t f) const;
   void reset_and_condense(const ByFace& by_face);
   void measure(ShapeFitResult& result) const;
 

@@ -1,5 +1,9 @@
 #include "preproc/surface/fit/reference_surface.hpp"
 
+#include "preproc/surface/kernel/components.hpp"
+
+#include <algorithm>
+
 namespace scan2fea {
 
 // Qualified calls: the members have the functions' names.
@@ -17,6 +21,19 @@ ReferenceSurface::ReferenceSurface(const SurfaceMesh& scan) : ReferenceSurface(s
 
 ReferenceSurface::ReferenceSurface(const FeatureScan& scan) : ReferenceSurface(scan.cut.mesh, scan.scan) {
   patch_of_vertex = scan.patches.of_vertex;
+}
+
+void ReferenceSurface::measure_by_body() {
+  const Components bodies = find_components(whole);
+  if (bodies.count < 2) return;
+  const std::vector<double> own = diagonals(whole, bodies);
+  diagonal = *std::max_element(own.begin(), own.end());
+  weight_of_body.resize(mesh.vertices.size());
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double ratio = diagonal / own[bodies.of_vertex[whole.triangles[f][k]]];
+      weight_of_body[mesh.triangles[f][k]] = ratio * ratio;
+    }
 }
 
 }  // namespace scan2fea

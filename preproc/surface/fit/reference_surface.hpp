@@ -29,7 +29,14 @@ struct ReferenceSurface {
   // features.
   std::vector<std::uint32_t> patch_of_vertex;
   double diagonal = 0;  // of the bounding box
+  // Per vertex the square of `diagonal` over its body's own: how much heavier distances weigh there. Empty where all
+  // count alike.
+  std::vector<double> weight_of_body;
   double area = 0;
+
+  // From now on the diagonal is that of the largest body, and each body's distances are held against its own. For one
+  // body nothing changes.
+  void measure_by_body();
 
   // Of a result with so many triangles. Written out, though equilateral_edge is the same length: the two differ in the
   // last bit, and fits of a few hundred triangles that barely succeed turn out otherwise by it (a helmet of 300:

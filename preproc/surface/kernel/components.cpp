@@ -37,6 +37,20 @@ std::vector<double> diagonals(const SurfaceMesh& mesh, const Components& compone
   return diagonal;
 }
 
+BodySizes body_sizes(const SurfaceMesh& mesh) {
+  if (mesh.triangles.empty()) return {};
+  // A vertex without a triangle is no body.
+  const Components components = find_components(mesh);
+  const std::vector<double> diagonal = diagonals(mesh, components);
+  BodySizes sizes{.smallest = std::numeric_limits<double>::infinity()};
+  for (const Triangle& t : mesh.triangles) {
+    const double d = diagonal[components.of_vertex[t[0]]];
+    sizes.smallest = std::min(sizes.smallest, d);
+    sizes.largest = std::max(sizes.largest, d);
+  }
+  return sizes;
+}
+
 std::vector<long> euler_characteristics(const SurfaceMesh& mesh, const Components& components,
                                         std::span<const FeatureEdge> border) {
   // E = (3 F + border) / 2.

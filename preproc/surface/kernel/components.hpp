@@ -22,6 +22,12 @@ Components find_components(const SurfaceMesh& mesh);
 // may lie far apart. Linear.
 std::vector<double> diagonals(const SurfaceMesh& mesh, const Components& components);
 
+// Of the smallest and the largest of them; 0 where there is none.
+struct BodySizes {
+  double smallest = 0, largest = 0;
+};
+BodySizes body_sizes(const SurfaceMesh& mesh);
+
 // V - E + F per component, where every edge has two triangles but those of `border`, which have one: 2 - 2 genus -
 // borders of a manifold one. Linear.
 std::vector<long> euler_characteristics(const SurfaceMesh& mesh, const Components& components,

@@ -3,6 +3,7 @@
 #include "preproc/surface/features/curve_sampling.hpp"
 #include "preproc/surface/features/feature_curves.hpp"
 #include "preproc/surface/kernel/adjacency.hpp"
+#include "preproc/surface/kernel/components.hpp"
 #include "quality/triangle_measures.hpp"
 
 #include <algorithm>
@@ -266,7 +267,7 @@ AnchoredScan anchor_scan(const FeatureScan& scan, const SizingOptions& options, 
   };
   refine();
   const double mean_edge = equilateral_edge(surface_area(scan.scan), wanted);
-  const double diagonal = bounding_box(scan.scan.vertices).diagonal();
+  const double diagonal = body_sizes(scan.scan).largest;
   const double tolerance = std::min(
       scan.tolerance.largest,
       std::max(scan.tolerance.least,

@@ -49,6 +49,7 @@ class PreparedScan {
         reference_.emplace(features_);
       else
         reference_.emplace(mesh);
+      reference_->measure_by_body();
     }
     return *reference_;
   }

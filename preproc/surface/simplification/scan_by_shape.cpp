@@ -4,6 +4,7 @@
 #include "preproc/surface/features/find_features.hpp"
 #include "preproc/surface/features/match_features.hpp"
 #include "preproc/surface/kernel/adjacency.hpp"
+#include "preproc/surface/kernel/components.hpp"
 #include "preproc/surface/kernel/micro_edges.hpp"
 #include "preproc/surface/kernel/nearest.hpp"
 #include "preproc/surface/sizing/shape_lengths.hpp"
@@ -15,8 +16,8 @@
 namespace scan2fea {
 namespace {
 
-// Of the diagonal. Features that are smaller than the least edges are for nobody; what is shorter than micro edges are
-// is an accident.
+// Of the smallest body's diagonal. Features that are smaller than the least edges are for nobody; what is shorter than
+// micro edges are is an accident.
 constexpr double shortest_edge = 0.001, micro_edge = 2e-5;
 // The scan's edges, over the wanted ones: see longest_edge_of_part in simplify.cpp.
 constexpr double longest_scan_edge = 1.5;
@@ -39,7 +40,7 @@ std::vector<double> wanted_at(const SurfaceMesh& mesh, const PreparedScan& scan,
 
 ScanByShape prepare_by_shape(const PreparedScan& scan, const SizingOptions& sizing, const SimplifyOptions& options,
                              double most_triangles) {
-  const double diagonal = bounding_box(scan.given.vertices).diagonal();
+  const double diagonal = body_sizes(scan.given).smallest;
   const double longest = equilateral_edge(surface_area(scan.given), sizing.triangles);
   auto mesh = std::make_shared<SurfaceMesh>(without_micro_edges(scan.given, micro_edge * diagonal));
   std::vector<FeatureEdge> creases = options.given_features

@@ -5,6 +5,7 @@
 #include "preproc/surface/features/match_features.hpp"
 #include "preproc/surface/features/scan_noise.hpp"
 #include "preproc/surface/kernel/adjacency.hpp"
+#include "preproc/surface/kernel/components.hpp"
 #include "preproc/surface/simplification/surface_search.hpp"
 #include "preproc/surface/sizing/split_long_edges.hpp"
 #include "quality/triangle_measures.hpp"
@@ -27,9 +28,9 @@ constexpr double largest_face = 0.3;
 // Where few triangles are asked for, make_shaped_surface may want to make about so many.
 constexpr double triangles_of_small_part = 4000;
 
-// How far the result's edges may be from the curves, of the diagonal: a chord of a circle with a radius of a tenth of
-// it then spans 6 degrees at the most. Under noise the curves themselves are known no better than noise_on_curves times
-// it.
+// How far the result's edges may be from the curves, of the smallest body's diagonal: a chord of a circle with a radius
+// of a tenth of it then spans 6 degrees at the most. Under noise the curves themselves are known no better than
+// noise_on_curves times it.
 constexpr double curve_tolerance = 0.00014;
 constexpr double noise_on_curves = 1.5;
 
@@ -83,8 +84,7 @@ Features features_of(const SurfaceMesh& mesh, const SimplifyOptions& options) {
 }
 
 CurveTolerance tolerance_of_curves(const SurfaceMesh& mesh, const TargetSize& size, double noise) {
-  CurveTolerance tolerance{
-      .least = std::max(curve_tolerance * bounding_box(mesh.vertices).diagonal(), noise_on_curves * noise)};
+  CurveTolerance tolerance{.least = std::max(curve_tolerance * body_sizes(mesh).smallest, noise_on_curves * noise)};
   if (const auto* bound = std::get_if<LargestDeviation>(&size))
     tolerance.largest = curves_over_deviation * bound->distance;
   return tolerance;

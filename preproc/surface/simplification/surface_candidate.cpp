@@ -252,12 +252,12 @@ Candidate by_collapse(const PreparedScanPointer& scan, double faces, const Simpl
 
 // The scan without the short creases near the places where a surface failed.
 PreparedScanPointer without_short_creases(const Candidate& failed) {
-  constexpr double longest = 0.5;  // of the diagonal: the folds of a scan, not the edges of a part
+  constexpr double longest = 0.5;  // of a body's diagonal: the folds of a scan, not the edges of a part
   constexpr double reach = 2;      // mean edges
   const PreparedScan& scan = *failed.scan;
   const double edge = equilateral_edge(surface_area(failed.mesh), static_cast<double>(failed.faces()));
   return with_creases(failed.scan, without_short_creases_near(scan.mesh, scan.creases(), failed.failed_at, reach * edge,
-                                                              longest * bounding_box(scan.mesh.vertices).diagonal()));
+                                                              longest * body_sizes(scan.mesh).largest));
 }
 
 // Where the lattice failed with creases since triangles of the wanted size are too large for them: without the short
