@@ -144,7 +144,7 @@ class FaceBounder {
     bound_.farthest = corner.point;
   }
   Corner met_at(const Vec3& point, std::uint32_t hint) {
-    const Corner corner = corner_at(point, target_, hint);
+    Corner corner = corner_at(point, target_, hint);
     meet(corner);
     return corner;
   }

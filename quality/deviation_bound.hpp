@@ -45,7 +45,8 @@ struct DeviationBoundOptions {
   // question whether a deviation of D is kept, D.
   double limit = 0;
   // Above the limit, how far the upper bound may lie above the lower one, over the larger of the lower bound and the
-  // limit; in (0, 1].
+  // limit; in (0, 1]. For the question which triangles are beyond the limit, and about how far, 0.3 does with half of
+  // the time where many are; where none is, it makes no difference.
   double tolerance = 0.02;
 };
 

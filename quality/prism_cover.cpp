@@ -136,8 +136,9 @@ bool PrismCover::walk(std::uint32_t seed, double most_height) {
   met_.insert(seed);
   const auto& [a, b, c] = tree_.corners_of_leaf(seed);
   parts_.push_back({seed, {project(a), project(b), project(c)}, -1});
-  for (std::size_t i = 0; i < parts_.size(); ++i) {
-    const Part part = parts_[i];
+  std::size_t next = 0;
+  while (next < parts_.size()) {
+    const Part part = parts_[next++];  // the list grows below
     const auto [low, high] = std::minmax({part.corners[0].height, part.corners[1].height, part.corners[2].height});
     if (low > most_height || high < -most_height) return false;
     for (std::size_t k = 0; k < 3; ++k)
@@ -219,7 +220,7 @@ PrismCover::Clipped PrismCover::clipped(const Part& part) const {
   return polygon;
 }
 
-void PrismCover::clip(Clipped& polygon, const Line& edge) const {
+void PrismCover::clip(Clipped& polygon, const Line& edge) {
   const std::array<Point, most_corners> before = polygon.corners;
   const std::size_t size = std::exchange(polygon.size, 0);
   if (size == 0) return;

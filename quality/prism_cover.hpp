@@ -111,7 +111,7 @@ class PrismCover {
 
   bool lay(const Vec3& a, const Vec3& b, const Vec3& c);
   Point project(const Vec3& point) const;
-  double distance(const Line& line, const Point& p) const { return line.nx * p.x + line.ny * p.y + line.offset; }
+  static double distance(const Line& line, const Point& p) { return line.nx * p.x + line.ny * p.y + line.offset; }
   Vec3 in_space(double x, double y) const { return origin_ + x * along_ + y * across_; }
   bool walk(std::uint32_t seed, double most_height);
   bool cross(const Part& from, std::size_t corner);
@@ -119,7 +119,7 @@ class PrismCover {
   int degree() const;
   int covers_at(const Part& part, double x, double y, bool& is_clear) const;
   Clipped clipped(const Part& part) const;
-  void clip(Clipped& polygon, const Line& edge) const;
+  static void clip(Clipped& polygon, const Line& edge);
   void measure(int degree);
 
   const TriangleTree& tree_;
