@@ -166,13 +166,11 @@ void Surroundings::cut_scan(const SurfaceMesh& scan, const std::vector<std::uint
   }
   std::vector<std::uint32_t> of_fit, of_answered;
   answered_ = selected(fine, answered, of_answered);
-  to_answer_ = answered_.vertices;
-  for (const Triangle& t : answered_.triangles) to_answer_.push_back(centroid(answered_, t));
-  const std::vector<bool> is_own = left_to_patch(to_answer_, patch);
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < to_answer_.size(); ++i)
-    if (is_own[i]) to_answer_[kept++] = to_answer_[i];
-  to_answer_.resize(kept);
+  for (const std::uint32_t v : of_answered)
+    if (is_free[v]) to_answer_.push_back(fine.vertices[v]);
+  for (const Triangle& t : answered_.triangles)
+    if (std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return is_free[of_answered[v]]; }))
+      to_answer_.push_back(centroid(answered_, t));
   fit_part_ = selected(fine, fits, of_fit);
   for (const std::uint32_t v : of_fit) start_of_fit_.push_back(near[v]);
   if (!fit_part_.triangles.empty()) fit_scan_.emplace(fit_part_);

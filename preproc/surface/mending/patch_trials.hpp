@@ -102,7 +102,7 @@ class Surroundings {
   SurfaceMesh scan_;  // within the box
   std::optional<DeviationReference> scan_reference_;
   SurfaceMesh answered_;                     // parts of it that the surface around is too far from
-  std::vector<Vec3> to_answer_;              // their vertices and centroids, of which the same holds
+  std::vector<Vec3> to_answer_;              // vertices of which the same holds, and centroids between them
   SurfaceMesh fit_part_;                     // and those that belong to the patch
   std::vector<std::uint32_t> start_of_fit_;  // per vertex of it, one of the patch that is near
   std::optional<ReferenceSurface> fit_scan_;

@@ -8,6 +8,7 @@
 #include <array>
 #include <limits>
 #include <optional>
+#include <span>
 #include <utility>
 
 namespace scan2fea {
@@ -21,7 +22,7 @@ constexpr int most_steps = 6;
 constexpr double least_gain = 0.88;
 // Fits of a trial, one after the other, each over the goal's fidelity.
 constexpr std::array<double, 2> stiffnesses{0.5, 1};
-// Where the fit or flips alone halve the merit, no vertices are inserted in that step.
+// Where trials halve the merit, no dearer ones are made in that step.
 constexpr double good_gain = 0.5;
 
 // The faces around a set of vertices that grows.
@@ -87,30 +88,28 @@ std::vector<LineEdge> lines_within(const SurfaceMesh& patch, const std::vector<s
   return within;
 }
 
-// Edges inside of the patch, of a face and the faces across its edges: the face's own first, and the longer first.
-std::vector<Index> edges_around(const HalfedgeMesh& mesh, Index face) {
-  std::vector<Index> edges;
-  const auto add = [&](Index h) {
+// Edges inside of the patch: of a face, and the others of the faces across them, the longest first.
+using EdgesAround = std::array<std::vector<Index>, 2>;
+
+EdgesAround edges_around(const HalfedgeMesh& mesh, Index face) {
+  EdgesAround edges;
+  const auto add = [&](Index h, std::vector<Index>& group) {
     if (mesh.is_border(h)) return;
     const Index edge = std::min(h, mesh.opposite(h));
-    if (std::find(edges.begin(), edges.end(), edge) == edges.end()) edges.push_back(edge);
+    if (std::find(group.begin(), group.end(), edge) == group.end()) group.push_back(edge);
   };
+  for (Index h = 3 * face; h < 3 * face + 3; ++h) {
+    add(h, edges[0]);
+    if (mesh.is_border(h)) continue;
+    add(HalfedgeMesh::next(mesh.opposite(h)), edges[1]);
+    add(HalfedgeMesh::prev(mesh.opposite(h)), edges[1]);
+  }
   const auto squared_length = [&](Index h) {
     return (mesh.points[mesh.target(h)] - mesh.points[mesh.origin(h)]).squaredNorm();
   };
-  const auto sort_from = [&](std::size_t first) {
-    std::stable_sort(edges.begin() + static_cast<std::ptrdiff_t>(first), edges.end(),
+  for (std::vector<Index>& group : edges)
+    std::stable_sort(group.begin(), group.end(),
                      [&](Index a, Index b) { return squared_length(a) > squared_length(b); });
-  };
-  for (Index h = 3 * face; h < 3 * face + 3; ++h) add(h);
-  const std::size_t own = edges.size();
-  sort_from(0);
-  for (Index h = 3 * face; h < 3 * face + 3; ++h) {
-    if (mesh.is_border(h)) continue;
-    add(HalfedgeMesh::next(mesh.opposite(h)));
-    add(HalfedgeMesh::prev(mesh.opposite(h)));
-  }
-  sort_from(own);
   return edges;
 }
 
@@ -119,26 +118,32 @@ bool is_line_edge(const HalfedgeMesh& mesh, Index h, const Trial& trial) {
   return std::any_of(trial.lines.begin(), trial.lines.end(), [&](const LineEdge& e) { return e.edge() == edge; });
 }
 
-// A new vertex in the middle of an edge; where that is on a line, in the middle of the line's piece.
-Trial with_split_edge(const HalfedgeMesh& mesh, Index h, const Trial& now, const FeatureNet& net) {
-  const FeatureEdge edge = feature_edge(mesh.origin(h), mesh.target(h));
-  Vec3 middle = 0.5 * (mesh.points[edge[0]] + mesh.points[edge[1]]);
-  Trial trial{.patch = {}, .lines = now.lines};
-  const auto v = static_cast<std::uint32_t>(now.vertices());
-  for (std::size_t i = 0; i < now.lines.size(); ++i) {
-    if (now.lines[i].edge() != edge) continue;
-    LineEdge first = now.lines[i], second = first;
-    first.to = second.from = v;
-    first.to_place = second.from_place = middle_place(net.lines[first.line], first.from_place, first.to_place);
-    middle = net.lines[first.line].point_at(first.to_place);
-    trial.lines[i] = first;
-    trial.lines.push_back(second);
+// New vertices in the middle of edges; where one is on a line, in the middle of the line's piece.
+Trial with_split_edges(const HalfedgeMesh& mesh, std::span<const Index> edges, const Trial& now,
+                       const FeatureNet& net) {
+  Trial trial{.lines = now.lines};
+  HalfedgeMesh changed = mesh;
+  std::vector<std::uint32_t> inserted;
+  for (const Index h : edges) {
+    const FeatureEdge edge = feature_edge(changed.origin(h), changed.target(h));
+    Vec3 middle = 0.5 * (mesh.points[edge[0]] + mesh.points[edge[1]]);
+    const auto v = static_cast<std::uint32_t>(changed.vertex_slots());
+    const auto on_line =
+        std::find_if(trial.lines.begin(), trial.lines.end(), [&](const LineEdge& e) { return e.edge() == edge; });
+    if (on_line != trial.lines.end()) {
+      LineEdge second = *on_line;
+      const double place = middle_place(net.lines[second.line], second.from_place, second.to_place);
+      on_line->to = second.from = v;
+      on_line->to_place = second.from_place = place;
+      middle = net.lines[second.line].point_at(place);
+      trial.lines.push_back(second);
+    }
+    inserted.push_back(changed.split_edge(h, middle));
   }
   std::vector<FeatureEdge> kept;
   for (const LineEdge& e : trial.lines) kept.push_back(e.edge());
   std::sort(kept.begin(), kept.end());
-  HalfedgeMesh changed = mesh;
-  restore_delaunay(changed, changed.split_edge(h, middle), {.crease_deg = 90, .kept = kept});
+  for (const std::uint32_t v : inserted) restore_delaunay(changed, v, {.crease_deg = 90, .kept = kept});
   trial.patch = changed.to_surface();
   return trial;
 }
@@ -189,27 +194,36 @@ class Step {
   std::optional<Trial> best_;
 };
 
-// What lowers the deviation most, or the first that brings it within the limit: the cheaper ways first.
+// What lowers the deviation most of a group of trials, or the first that brings it within the limit: the cheaper groups
+// first, and no other where one gains well.
 std::optional<Trial> next_state(const Trial& now, const Surroundings& surroundings, const FeatureNet& net,
-                                const PatchGoal& goal, bool may_insert) {
+                                const PatchGoal& goal, std::size_t room) {
   Step step(now, surroundings, goal);
-  if (step.reaches(now)) return step.take();
+  if (step.reaches(now) || step.gain() <= good_gain) return step.take();
   const HalfedgeMesh mesh(now.patch);
-  const std::vector<Index> edges = edges_around(mesh, now.worst);
-  for (const Index h : edges) {
-    if (!mesh.can_flip(h) || is_line_edge(mesh, h, now)) continue;
-    HalfedgeMesh changed = mesh;
-    changed.flip(h);
-    if (step.reaches({.patch = changed.to_surface(), .lines = now.lines})) return step.take();
+  const EdgesAround edges = edges_around(mesh, now.worst);
+  for (const std::vector<Index>& group : edges) {
+    for (const Index h : group) {
+      if (!mesh.can_flip(h) || is_line_edge(mesh, h, now)) continue;
+      HalfedgeMesh changed = mesh;
+      changed.flip(h);
+      if (step.reaches({.patch = changed.to_surface(), .lines = now.lines})) return step.take();
+    }
+    if (step.gain() <= good_gain) return step.take();
   }
-  if (!may_insert || step.gain() <= good_gain) return step.take();
-  for (const Index h : edges)
-    if (step.reaches(with_split_edge(mesh, h, now, net))) return step.take();
+  if (room == 0) return step.take();
+  for (const std::vector<Index>& group : edges) {
+    for (const Index h : group)
+      if (step.reaches(with_split_edges(mesh, {&h, 1}, now, net))) return step.take();
+    if (step.gain() <= good_gain) return step.take();
+  }
+  if (room >= edges[0].size() && step.reaches(with_split_edges(mesh, edges[0], now, net))) return step.take();
   if (!goal.may_place || step.gain() < 1) return step.take();
-  for (const Index h : edges) {
-    Trial split = with_split_edge(mesh, h, now, net);
-    if (split.lines.size() == now.lines.size() && step.reaches_placed(std::move(split))) break;
-  }
+  for (const std::vector<Index>& group : edges)
+    for (const Index h : group) {
+      Trial split = with_split_edges(mesh, {&h, 1}, now, net);
+      if (split.lines.size() == now.lines.size() && step.reaches_placed(std::move(split))) return step.take();
+    }
   return step.take();
 }
 
@@ -260,7 +274,8 @@ PatchOutcome RefinementPatch::improve(const SurfaceMesh& mesh, const std::vector
   const double merit = now.merit;
   const auto inserted_by = [&](const Trial& trial) { return trial.vertices() - outline_.vertices.size(); };
   for (int step = 0; step < most_steps && now.merit > 0; ++step) {
-    std::optional<Trial> next = next_state(now, surroundings, net, goal, inserted_by(now) < goal.most_vertices);
+    const std::size_t room = goal.most_vertices - std::min(goal.most_vertices, inserted_by(now));
+    std::optional<Trial> next = next_state(now, surroundings, net, goal, room);
     if (!next) break;
     now = std::move(*next);
   }
