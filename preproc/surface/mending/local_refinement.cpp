@@ -195,7 +195,7 @@ std::vector<Place> mend(SurfaceMesh& mesh, BoxesOfSurface& boxes, FeatureNet& ne
     std::vector<Place> taken, later;
     for (const Place& place : places) {
       if (covered[place.face]) continue;
-      RefinementPatch patch(mesh, stars, place.face, rings, place.deviation, lines);
+      RefinementPatch patch(mesh, stars, mesh.triangles[place.face], rings, place.deviation, lines);
       const bool is_apart = std::none_of(batch.begin(), batch.end(), [&](const RefinementPatch& other) {
         return boxes_meet(patch.box(), other.box());
       });

@@ -222,18 +222,15 @@ void Surroundings::fit(Trial& trial, double fidelity) const {
   optimise_shape_and_fit(trial.patch, *fit_scan_, options);
 }
 
-void Surroundings::measure_shape(Trial& trial) const {
-  const SurfaceMesh& patch = trial.patch;
-  trial.missing_angles = 0;
-  for (const Triangle& t : patch.triangles)
-    trial.missing_angles +=
-        std::max(0.0, goal_.least_angle_deg -
-                          smallest_angle_deg(patch.vertices[t[0]], patch.vertices[t[1]], patch.vertices[t[2]]));
-  trial.sharpest_deg = trial.sharpest_on_line_deg = 180;
+// Calls visit(face, edge, interior angle in degrees) for each edge between two faces of the patch, or one of it and one
+// of the surface around.
+template <class Visit>
+void Surroundings::for_each_dihedral(const SurfaceMesh& patch, const Visit& visit) const {
   const std::vector<Side> sides = sorted_sides(patch);
   for (std::size_t i = 0; i < sides.size(); ++i) {
     const FeatureEdge edge = sides[i].edge;
-    const Triangle& t = patch.triangles[sides[i].corner / 3];
+    const std::uint32_t f = sides[i].corner / 3, k = sides[i].corner % 3;
+    const Triangle& t = patch.triangles[f];
     Vec3 beyond;
     if (i + 1 < sides.size() && sides[i + 1].edge == edge) {
       beyond = area_vector(patch, patch.triangles[sides[i + 1].corner / 3]);
@@ -245,14 +242,55 @@ void Surroundings::measure_shape(Trial& trial) const {
       if (at == rim_normals_.end() || at->first != edge) continue;
       beyond = at->second;
     }
-    const std::uint32_t k = sides[i].corner % 3;
     const Vec3 along = (patch.vertices[t[(k + 2) % 3]] - patch.vertices[t[(k + 1) % 3]]).normalized();
-    const double inside = interior_angle(area_vector(patch, t), beyond, along) * 180 / std::numbers::pi;
+    visit(f, edge, interior_angle(area_vector(patch, t), beyond, along) * 180 / std::numbers::pi);
+  }
+}
+
+void Surroundings::measure_shape(Trial& trial) const {
+  const SurfaceMesh& patch = trial.patch;
+  trial.missing_angles = 0;
+  for (const Triangle& t : patch.triangles)
+    trial.missing_angles +=
+        std::max(0.0, goal_.least_angle_deg -
+                          smallest_angle_deg(patch.vertices[t[0]], patch.vertices[t[1]], patch.vertices[t[2]]));
+  trial.sharpest_deg = trial.sharpest_on_line_deg = 180;
+  for_each_dihedral(patch, [&](std::uint32_t, const FeatureEdge& edge, double inside_deg) {
     const bool on_line =
         std::any_of(trial.lines.begin(), trial.lines.end(), [&](const LineEdge& line) { return line.edge() == edge; });
     double& sharpest = on_line ? trial.sharpest_on_line_deg : trial.sharpest_deg;
-    sharpest = std::min({sharpest, inside, 360 - inside});
+    sharpest = std::min({sharpest, inside_deg, 360 - inside_deg});
+  });
+  if (goal_.for_shape) measure_lack(trial);
+}
+
+// Corners and edges of the part are as sharp as the part is.
+void Surroundings::measure_lack(Trial& trial) const {
+  const SurfaceMesh& patch = trial.patch;
+  std::vector<FeatureEdge> lines;
+  for (const LineEdge& line : trial.lines) lines.push_back(line.edge());
+  std::sort(lines.begin(), lines.end());
+  const auto on_line = [&](std::uint32_t a, std::uint32_t b) {
+    return std::binary_search(lines.begin(), lines.end(), feature_edge(a, b));
+  };
+  std::vector<double> of_face(patch.triangles.size(), 0);
+  const auto add = [&](std::uint32_t f, double angle_deg) {
+    const double lack = std::max(0.0, goal_.least_angle_deg - angle_deg);
+    of_face[f] += lack * lack;
+  };
+  for (std::uint32_t f = 0; f < patch.triangles.size(); ++f) {
+    const Triangle& t = patch.triangles[f];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t v = t[k], next = t[(k + 1) % 3], last = t[(k + 2) % 3];
+      if (!on_line(v, next) || !on_line(v, last))
+        add(f, angle_deg(patch.vertices[v], patch.vertices[next], patch.vertices[last]));
+    }
   }
+  for_each_dihedral(patch, [&](std::uint32_t f, const FeatureEdge& edge, double inside_deg) {
+    if (!std::binary_search(lines.begin(), lines.end(), edge)) add(f, inside_deg / 2);
+  });
+  trial.lack = std::accumulate(of_face.begin(), of_face.end(), 0.0);
+  trial.worst = static_cast<std::uint32_t>(std::max_element(of_face.begin(), of_face.end()) - of_face.begin());
 }
 
 bool Surroundings::keeps_shape(Trial& trial, const Trial& now) const {
@@ -329,6 +367,7 @@ void Surroundings::set_merit(Trial& trial) const {
   trial.merit = 0;
   const double limit = trial.certified ? goal_.limit : sampled_limit * goal_.limit;
   for (const double d : trial.deviation) trial.merit += std::pow(std::max(0.0, d / limit - 1), 4);
+  if (goal_.for_shape) return;
   trial.worst = static_cast<std::uint32_t>(std::max_element(trial.deviation.begin(), trial.deviation.end()) -
                                            trial.deviation.begin());
 }

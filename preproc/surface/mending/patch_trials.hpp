@@ -21,6 +21,9 @@ struct PatchGoal {
   // Where nothing else helps, vertices are inserted on the scan and no fit follows: around a thorn fits go astray, and
   // these lead them. Else they would only cost shape.
   bool may_place = false;
+  // The shape is to gain, with the deviation kept, instead of the other way round: angles of triangles, and halves of
+  // those between faces, below `least_angle_deg` are what lacks.
+  bool for_shape = false;
 };
 
 // Where a patch was cut out of the surface; it stays as it was while the patch changes.
@@ -42,8 +45,9 @@ struct Trial {
   // Per face of the patch, of both sides: the scan's points belong to the face nearest to them.
   std::vector<double> deviation{};
   double merit = 0;         // sum of ((deviation - limit) / limit)^4 over the faces beyond the limit
+  double lack = 0;          // sum of the squares of what angles lack of the least, degrees; only where that is the goal
   bool certified = false;   // the deviation is an upper bound for all points, not of samples
-  std::uint32_t worst = 0;  // face of the patch
+  std::uint32_t worst = 0;  // face of the patch, by what the goal is about
 
   std::size_t vertices() const { return patch.vertices.size(); }
 };
@@ -91,7 +95,10 @@ class Surroundings {
   void find_rim_normals(const SurfaceMesh& patch);
 
   SurfaceMesh with_frozen(const SurfaceMesh& patch) const;
+  template <class Visit>
+  void for_each_dihedral(const SurfaceMesh& patch, const Visit& visit) const;
   void measure_shape(Trial& trial) const;
+  void measure_lack(Trial& trial) const;
   void set_merit(Trial& trial) const;
 
   const PatchOutline& outline_;

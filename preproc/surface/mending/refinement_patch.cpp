@@ -28,7 +28,7 @@ constexpr double good_gain = 0.5;
 // The faces around a set of vertices that grows.
 class Stars {
  public:
-  Stars(const VertexStars& stars, const Triangle& vertices)
+  Stars(const VertexStars& stars, std::span<const std::uint32_t> vertices)
       : stars_(stars), vertices_(vertices.begin(), vertices.end()) {
     close();
   }
@@ -148,20 +148,54 @@ Trial with_split_edges(const HalfedgeMesh& mesh, std::span<const Index> edges, c
   return trial;
 }
 
-// One step's trials: keeps the nearest of the sound ones.
+// Edges within the place split until they are `factor` times as long as they were, and those around it so that lengths
+// change gradually; at most `room` vertices more.
+Trial with_shorter_edges(Trial now, const PatchOutline& outline, const FeatureNet& net, const ShorterEdges& place,
+                         std::size_t room) {
+  // Halves of a longer edge are nearer to the wanted length than it is.
+  constexpr double too_long = 1.33;
+  constexpr double gradation = 0.5;  // of lengths, over the distance
+  const auto distance = [&](const Vec3& p) {
+    return std::max(0.0, (p - place.where.centre).norm() - place.where.radius);
+  };
+  const double wanted = place.factor * outline.edge;
+  for (std::size_t inserted = 0; inserted < room; ++inserted) {
+    const HalfedgeMesh mesh(now.patch);
+    double longest = too_long;
+    Index split = HalfedgeMesh::none;
+    for (Index h = 0; h < 3 * mesh.face_slots(); ++h) {
+      if (mesh.is_border(h) || mesh.opposite(h) < h) continue;
+      const Vec3 &a = mesh.points[mesh.origin(h)], &b = mesh.points[mesh.target(h)];
+      const double length = std::min(outline.edge, wanted + gradation * distance(0.5 * (a + b)));
+      if (!((b - a).norm() > longest * length)) continue;
+      longest = (b - a).norm() / length;
+      split = h;
+    }
+    if (split == HalfedgeMesh::none) break;
+    now = with_split_edges(mesh, {&split, 1}, now, net);
+  }
+  return now;
+}
+
+// What a patch is to lower; 0 is reached.
+double score_of(const Trial& trial, const PatchGoal& goal) {
+  return goal.for_shape ? trial.lack : trial.merit;
+}
+
+// One step's trials: keeps the best of the sound ones.
 class Step {
  public:
   Step(const Trial& now, const Surroundings& surroundings, const PatchGoal& goal)
       : now_(now), surroundings_(surroundings), goal_(goal) {}
 
-  // Tries a state, with a fit that shape has much to say in, then with stiffer ones. True where it is within the limit,
-  // so that nothing else need be tried.
+  // Tries a state, with a fit that shape has much to say in, then with stiffer ones. True where it has reached the
+  // goal, so that nothing else need be tried.
   bool reaches(Trial trial) {
     if (surroundings_.is_folded(trial, now_)) return false;
     for (const double stiffness : stiffnesses) {
       surroundings_.fit(trial, goal_.fidelity / stiffness);
-      if (!is_nearer(trial)) return false;
-      if (best_ && best_->merit == 0) return true;
+      if (!may_gain(trial)) return false;
+      if (has_reached()) return true;
     }
     return false;
   }
@@ -169,22 +203,26 @@ class Step {
   // The same for a state whose last vertex is put on the scan, the others being where they are.
   bool reaches_placed(Trial trial) {
     surroundings_.put_on_scan(trial.patch.vertices.back());
-    return is_nearer(trial) && best_ && best_->merit == 0;
+    return may_gain(trial) && has_reached();
   }
 
-  double gain() const { return best_ ? best_->merit / now_.merit : 1; }
+  double gain() const { return best_ ? score(*best_) / score(now_) : 1; }
   std::optional<Trial> take() { return std::move(best_); }
 
  private:
+  double score(const Trial& trial) const { return score_of(trial, goal_); }
+  bool has_reached() const { return best_ && score(*best_) == 0; }
+
   // Whether a state is sound and no farther, so that stiffer fits may help it; the best of those that gain is kept.
-  bool is_nearer(Trial& trial) {
+  // Where the shape is the goal, a stiffer fit may also bring back what the softer one took away.
+  bool may_gain(Trial& trial) {
     if (!surroundings_.keeps_shape(trial, now_)) return false;
     surroundings_.sample_deviation(trial, now_.merit);
-    if (trial.merit > now_.merit) return false;
-    const auto gains_over = [&](double merit) { return trial.merit <= least_gain * merit; };
-    if (!gains_over(best_ ? best_->merit : now_.merit) || !surroundings_.is_clear(trial)) return true;
-    if (trial.merit == 0) surroundings_.certify(trial);
-    if (gains_over(now_.merit) && (!best_ || trial.merit < best_->merit)) best_ = trial;
+    if (trial.merit > now_.merit) return goal_.for_shape;
+    const auto gains_over = [&](const Trial& other) { return score(trial) <= least_gain * score(other); };
+    if (!gains_over(best_ ? *best_ : now_) || !surroundings_.is_clear(trial)) return true;
+    if (trial.merit == 0 && !goal_.for_shape) surroundings_.certify(trial);
+    if (gains_over(now_) && (!best_ || score(trial) < score(*best_))) best_ = trial;
     return true;
   }
 
@@ -194,8 +232,8 @@ class Step {
   std::optional<Trial> best_;
 };
 
-// What lowers the deviation most of a group of trials, or the first that brings it within the limit: the cheaper groups
-// first, and no other where one gains well.
+// The best of a group of trials, or the first that reaches the goal: the cheaper groups first, and no other where one
+// gains well.
 std::optional<Trial> next_state(const Trial& now, const Surroundings& surroundings, const FeatureNet& net,
                                 const PatchGoal& goal, std::size_t room) {
   Step step(now, surroundings, goal);
@@ -229,9 +267,10 @@ std::optional<Trial> next_state(const Trial& now, const Surroundings& surroundin
 
 }  // namespace
 
-RefinementPatch::RefinementPatch(const SurfaceMesh& mesh, const VertexStars& stars, std::uint32_t seed, int rings,
-                                 double deviation, const std::vector<LineEdge>& lines) {
-  Stars inside(stars, mesh.triangles[seed]);
+RefinementPatch::RefinementPatch(const SurfaceMesh& mesh, const VertexStars& stars,
+                                 std::span<const std::uint32_t> seeds, int rings, double deviation,
+                                 const std::vector<LineEdge>& lines) {
+  Stars inside(stars, seeds);
   for (int ring = 0; ring < rings; ++ring) {
     for (const std::uint32_t f : inside.faces())
       for (const std::uint32_t v : mesh.triangles[f]) inside.add(v);
@@ -261,31 +300,67 @@ RefinementPatch::RefinementPatch(const SurfaceMesh& mesh, const VertexStars& sta
   outline_.box.high.array() += reach;
 }
 
+Trial RefinementPatch::after_steps(Trial now, const Surroundings& surroundings, const FeatureNet& net,
+                                   const PatchGoal& goal) const {
+  for (int step = 0; step < most_steps && score_of(now, goal) > 0; ++step) {
+    const std::size_t inserted = now.vertices() - outline_.vertices.size();
+    const std::size_t room = goal.most_vertices - std::min(goal.most_vertices, inserted);
+    std::optional<Trial> next = next_state(now, surroundings, net, goal, room);
+    if (!next) break;
+    now = std::move(*next);
+  }
+  return now;
+}
+
 PatchOutcome RefinementPatch::improve(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& around,
                                       const SurfaceMesh& scan, const std::vector<std::uint32_t>& scan_faces,
                                       const FeatureNet& net, const PatchGoal& goal) {
   const Surroundings surroundings(mesh, outline_, patch_, around, scan, scan_faces, goal);
   if (!surroundings.has_scan()) return {};
-  Trial now{.patch = patch_, .lines = lines_};
+  Trial first{.patch = patch_, .lines = lines_};
   // As it is, whatever it is.
+  surroundings.keeps_shape(first, first);
+  surroundings.sample_deviation(first, std::numeric_limits<double>::infinity());
+  if (!goal.for_shape) surroundings.certify(first);
+  if (score_of(first, goal) == 0) return {.improved = false, .reached = true};
+  Trial now = after_steps(first, surroundings, net, goal);
+  const bool improved = score_of(now, goal) <= least_gain * score_of(first, goal) && holds(first, now, surroundings);
+  const bool reached = improved && score_of(now, goal) == 0;
+  if (improved) take(std::move(now));
+  return {.improved = improved, .reached = reached};
+}
+
+PatchOutcome RefinementPatch::shorten(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& around,
+                                      const SurfaceMesh& scan, const std::vector<std::uint32_t>& scan_faces,
+                                      const FeatureNet& net, const PatchGoal& goal, const ShorterEdges& place) {
+  const Surroundings surroundings(mesh, outline_, patch_, around, scan, scan_faces, goal);
+  if (!surroundings.has_scan()) return {};
+  Trial first{.patch = patch_, .lines = lines_};
+  surroundings.keeps_shape(first, first);
+  surroundings.sample_deviation(first, std::numeric_limits<double>::infinity());
+  Trial now = with_shorter_edges(first, outline_, net, place, goal.most_vertices);
+  if (now.vertices() == first.vertices()) return {};
+  surroundings.fit(now, goal.fidelity);
+  // Long edges beside short ones make angles that flips and fits can mend.
   surroundings.keeps_shape(now, now);
   surroundings.sample_deviation(now, std::numeric_limits<double>::infinity());
-  surroundings.certify(now);
-  const double merit = now.merit;
-  const auto inserted_by = [&](const Trial& trial) { return trial.vertices() - outline_.vertices.size(); };
-  for (int step = 0; step < most_steps && now.merit > 0; ++step) {
-    const std::size_t room = goal.most_vertices - std::min(goal.most_vertices, inserted_by(now));
-    std::optional<Trial> next = next_state(now, surroundings, net, goal, room);
-    if (!next) break;
-    now = std::move(*next);
-  }
-  if (!now.certified) surroundings.certify(now);
-  const bool improved = now.merit <= least_gain * merit && merit > 0;
-  if (improved) {
-    patch_ = std::move(now.patch);
-    lines_ = std::move(now.lines);
-  }
-  return {.improved = improved, .reached = (improved ? now.merit : merit) == 0};
+  now = after_steps(std::move(now), surroundings, net, goal);
+  if (!surroundings.keeps_shape(now, first) || !surroundings.is_clear(now) || !holds(first, now, surroundings))
+    return {};
+  take(std::move(now));
+  return {.improved = true, .reached = true};
+}
+
+// Whether the one state is no farther from the scan than the other, or within the limit.
+bool RefinementPatch::holds(Trial& first, Trial& now, const Surroundings& surroundings) const {
+  for (Trial* trial : {&first, &now})
+    if (!trial->certified) surroundings.certify(*trial);
+  return now.merit <= first.merit;
+}
+
+void RefinementPatch::take(Trial trial) {
+  patch_ = std::move(trial.patch);
+  lines_ = std::move(trial.lines);
 }
 
 void RefinementPatch::write(SurfaceMesh& mesh, FeatureNet& net) const {

@@ -11,9 +11,11 @@
 #include "preproc/surface/features/feature_net.hpp"
 #include "preproc/surface/kernel/adjacency.hpp"
 #include "preproc/surface/mending/patch_trials.hpp"
+#include "preproc/surface/sizing/shorter_edges.hpp"
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace scan2fea {
@@ -25,11 +27,11 @@ struct PatchOutcome {
 
 class RefinementPatch {
  public:
-  // The faces around the vertices of face `seed` and those within `rings` rings of them. `deviation`: of the place; so
+  // The faces around the vertices `seeds` and those within `rings` rings of them. `deviation`: of the place; so
   // far, and a bit more, the scan and the surface around are looked at. `lines`: edges of the mesh whose vertices
   // stay as they are, which may be split where their lines are; see line_edges. O(faces of the patch).
-  RefinementPatch(const SurfaceMesh& mesh, const VertexStars& stars, std::uint32_t seed, int rings, double deviation,
-                  const std::vector<LineEdge>& lines);
+  RefinementPatch(const SurfaceMesh& mesh, const VertexStars& stars, std::span<const std::uint32_t> seeds, int rings,
+                  double deviation, const std::vector<LineEdge>& lines);
 
   // Everything that `improve` reads and writes lies in here: patches whose boxes do not meet may be improved at once
   // and written one after the other.
@@ -43,6 +45,12 @@ class RefinementPatch {
   PatchOutcome improve(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& around, const SurfaceMesh& scan,
                        const std::vector<std::uint32_t>& scan_faces, const FeatureNet& net, const PatchGoal& goal);
 
+  // Makes the edges in a place shorter, with shape and deviation no worse. Of the goal only the room is looked at, and
+  // what else angles may be raised to.
+  PatchOutcome shorten(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& around, const SurfaceMesh& scan,
+                       const std::vector<std::uint32_t>& scan_faces, const FeatureNet& net, const PatchGoal& goal,
+                       const ShorterEdges& place);
+
   std::size_t inserted() const { return patch_.vertices.size() - outline_.vertices.size(); }
 
   // Puts the patch in its place, and its new vertices on the net's lines; new vertices and faces go to the end of the
@@ -50,6 +58,10 @@ class RefinementPatch {
   void write(SurfaceMesh& mesh, FeatureNet& net) const;
 
  private:
+  Trial after_steps(Trial now, const Surroundings& surroundings, const FeatureNet& net, const PatchGoal& goal) const;
+  bool holds(Trial& first, Trial& now, const Surroundings& surroundings) const;
+  void take(Trial trial);
+
   PatchOutline outline_;
   SurfaceMesh patch_;
   std::vector<LineEdge> lines_;  // by the patch's vertices

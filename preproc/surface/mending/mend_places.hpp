@@ -1,0 +1,51 @@
+// Mends places of a made surface where they are, each by a patch (refinement_patch.hpp) whose rim stays: instead of
+// another lattice of the whole.
+//
+// For shape: edges are flipped and split and vertices fitted until no angle of a triangle, and no half of an angle
+// between two faces, is below the least. For size: edges are split until they are as short as is asked for, as
+// elements across a wall or poor tetrahedra want them, with lengths graded to the rim, and the shape then mended. A
+// patch is kept only where nothing crosses, no angle of triangles and none between faces gets worse, and the deviation
+// stays within the limit or no larger than it was.
+#pragma once
+
+#include "preproc/mesh/progress.hpp"
+#include "preproc/surface/features/feature_net.hpp"
+#include "preproc/surface/fit/reference_surface.hpp"
+#include "preproc/surface/sizing/shorter_edges.hpp"
+#include "quality/triangle_tree.hpp"
+
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace scan2fea {
+
+enum class MendFor { shape, size };
+
+struct MendPlacesOptions {
+  MendFor reason = MendFor::shape;
+  double limit = 0;  // of the deviation, two-sided, model units; above 0. A patch that was farther gets no farther.
+  // See ShapeFitOptions.
+  double fidelity_of_diagonal = 0.0016;
+  // Of triangles, and of halves of the angles between faces, but for those between lines of the part; in (0, 60).
+  double least_angle_deg = 30;
+  std::size_t most_vertices = std::numeric_limits<std::size_t>::max();  // inserted; each makes two triangles more
+};
+
+struct MendPlacesResult {
+  std::size_t mended = 0;          // places that are better than they were
+  std::size_t inserted = 0;        // vertices
+  std::vector<ShorterEdges> left;  // places that have not what was asked for
+};
+
+// One place after the other, in the order given. `scan_tree`: of scan.mesh. `mesh` is to be closed, manifold and free
+// of self-intersections, and so it is afterwards, with the same genus and components; vertices on the net's lines stay
+// where they are, and new ones come between them. The net's patches of faces are emptied. The volume changes a little
+// (see preserve_volume.hpp). A pass over the mesh and some tens to hundreds of ms a place, by its faces and the scan's
+// there. Throws WrongUsage for options out of range, Cancelled.
+MendPlacesResult mend_places(SurfaceMesh& mesh, FeatureNet& net, const ReferenceSurface& scan,
+                             const TriangleTree& scan_tree, std::span<const ShorterEdges> places,
+                             const MendPlacesOptions& options, const Progress& progress = {});
+
+}  // namespace scan2fea

@@ -1,0 +1,142 @@
+#include "preproc/surface/mending/mend_places.hpp"
+
+#include "preproc/mesh/error.hpp"
+#include "preproc/surface/features/feature_net.hpp"
+#include "quality/deviation_bound.hpp"
+#include "quality/self_intersections.hpp"
+#include "quality/triangle_measures.hpp"
+#include "quality/validity.hpp"
+#include "tests/analytic_meshes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace scan2fea {
+namespace {
+
+const Vec3 tip = Vec3(0.3, 0.5, 0.8).normalized();
+constexpr double limit = 0.02;  // six times the sagitta of the mesh's triangles
+
+std::uint32_t nearest_vertex(const SurfaceMesh& mesh, const Vec3& p) {
+  const auto nearest = std::min_element(mesh.vertices.begin(), mesh.vertices.end(), [&](const Vec3& a, const Vec3& b) {
+    return (a - p).squaredNorm() < (b - p).squaredNorm();
+  });
+  return static_cast<std::uint32_t>(nearest - mesh.vertices.begin());
+}
+
+double least_angle_deg(const SurfaceMesh& mesh) {
+  double least = 180;
+  for (const Triangle& t : mesh.triangles)
+    least = std::min(least, smallest_angle_deg(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]));
+  return least;
+}
+
+double mean_edge_within(const SurfaceMesh& mesh, const Ball& where) {
+  double sum = 0;
+  int count = 0;
+  for (const Triangle& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 &a = mesh.vertices[t[k]], &b = mesh.vertices[t[(k + 1) % 3]];
+      if ((0.5 * (a + b) - where.centre).norm() > where.radius) continue;
+      sum += (b - a).norm();
+      ++count;
+    }
+  return sum / count;
+}
+
+void expect_sound(const SurfaceMesh& mesh) {
+  const auto validity = check_validity(mesh);
+  EXPECT_TRUE(validity.closed());
+  EXPECT_TRUE(validity.manifold());
+  EXPECT_EQ(validity.genus, 0);
+  EXPECT_TRUE(find_self_intersections(mesh).empty());
+}
+
+class MendPlaces : public testing::Test {
+ protected:
+  MendPlacesResult mend(SurfaceMesh& mesh, const ShorterEdges& place, const MendPlacesOptions& options) {
+    return mend_places(mesh, none_, ReferenceSurface(scan_), TriangleTree(scan_), {&place, 1}, options);
+  }
+
+  const SurfaceMesh scan_ = analytic::sphere(1, 5);
+  const SurfaceMesh even_ = analytic::sphere(1, 3);
+  FeatureNet none_;
+};
+
+TEST_F(MendPlaces, NarrowTrianglesAreMendedAndNothingElseMoves) {
+  SurfaceMesh mesh = even_;
+  const std::uint32_t v = nearest_vertex(mesh, tip);
+  const auto beside = std::find_if(mesh.triangles.begin(), mesh.triangles.end(),
+                                   [&](const Triangle& t) { return t[0] == v || t[1] == v || t[2] == v; });
+  const std::uint32_t w = (*beside)[0] == v ? (*beside)[1] : (*beside)[0];
+  mesh.vertices[v] = (0.15 * mesh.vertices[v] + 0.85 * mesh.vertices[w]).normalized();
+  ASSERT_LT(least_angle_deg(mesh), 15);
+  const SurfaceMesh before = mesh;
+  const MendPlacesResult result = mend(mesh, {{mesh.vertices[v], 0.2}, 0.75}, {.limit = limit});
+  EXPECT_EQ(result.mended, 1U);
+  EXPECT_TRUE(result.left.empty());
+  EXPECT_GE(least_angle_deg(mesh), 30);
+  EXPECT_LE(bound_deviation(mesh, scan_, {.limit = limit}).upper(), limit);
+  expect_sound(mesh);
+  for (std::size_t u = 0; u < before.vertices.size(); ++u)
+    if ((before.vertices[u] - tip).norm() > 1) {
+      EXPECT_EQ(mesh.vertices[u], before.vertices[u]);
+    }
+}
+
+TEST_F(MendPlaces, EdgesBecomeAsShortAsAskedFor) {
+  SurfaceMesh mesh = even_;
+  const ShorterEdges place{{tip, 0.25}, 0.5};
+  const double before = mean_edge_within(mesh, place.where);
+  const MendPlacesResult result = mend(mesh, place, {.reason = MendFor::size, .limit = limit});
+  EXPECT_EQ(result.mended, 1U);
+  EXPECT_LT(mean_edge_within(mesh, place.where), 0.7 * before);
+  EXPECT_GE(least_angle_deg(mesh), 30);
+  EXPECT_EQ(mesh.vertices.size(), even_.vertices.size() + result.inserted);
+  EXPECT_LE(bound_deviation(mesh, scan_, {.limit = limit}).upper(), limit);
+  expect_sound(mesh);
+}
+
+TEST_F(MendPlaces, InsertsNoMoreThanAllowed) {
+  SurfaceMesh mesh = even_;
+  const MendPlacesResult result =
+      mend(mesh, {{tip, 0.25}, 0.5}, {.reason = MendFor::size, .limit = limit, .most_vertices = 3});
+  EXPECT_LE(result.inserted, 3U);
+  expect_sound(mesh);
+}
+
+TEST_F(MendPlaces, LeavesWhatLacksNothing) {
+  SurfaceMesh mesh = even_;
+  const MendPlacesResult result = mend(mesh, {{tip, 0.25}, 0.5}, {.limit = limit});
+  EXPECT_EQ(result.mended, 0U);
+  EXPECT_TRUE(result.left.empty());
+  EXPECT_EQ(mesh.vertices, even_.vertices);
+  EXPECT_EQ(mesh.triangles, even_.triangles);
+}
+
+TEST_F(MendPlaces, RefusesOptionsOutOfRange) {
+  SurfaceMesh mesh = even_;
+  EXPECT_THROW(mend(mesh, {{tip, 0.25}, 0.5}, {.limit = 0}), WrongUsage);
+  EXPECT_THROW(mend(mesh, {{tip, 0.25}, 0.5}, {.limit = 1, .least_angle_deg = 60}), WrongUsage);
+}
+
+// The other side of a wall is another place.
+TEST(MendPlacesOfAWall, OneSideOnlyIsShortened) {
+  const SurfaceMesh wall = analytic::box({4, 4, 0.8}, 0.4), scan = analytic::box({4, 4, 0.8}, 0.2);
+  SurfaceMesh mesh = wall;
+  FeatureNet none;
+  const ShorterEdges place{{{2, 2, 0.8}, 0.9}, 0.6};
+  const MendPlacesResult result = mend_places(mesh, none, ReferenceSurface(scan), TriangleTree(scan), {&place, 1},
+                                              {.reason = MendFor::size, .limit = 0.02});
+  EXPECT_EQ(result.mended, 1U);
+  EXPECT_GT(result.inserted, 0U);
+  expect_sound(mesh);
+  for (std::size_t v = 0; v < wall.vertices.size(); ++v)
+    if (wall.vertices[v].z() < 0.4) {
+      EXPECT_EQ(mesh.vertices[v], wall.vertices[v]);
+    }
+}
+
+}  // namespace
+}  // namespace scan2fea
