@@ -250,7 +250,7 @@ Changes refine_places(SurfaceMesh& mesh, FeatureNet& net, const ReferenceSurface
 // Bounds of the deviation that are renewed only where something has changed.
 class KnownDeviation {
  public:
-  KnownDeviation(const SurfaceMesh& mesh, const SurfaceMesh& scan, double limit)
+  KnownDeviation(const SurfaceMesh& mesh, const DeviationReference& scan, double limit)
       : scan_(scan), limit_(limit), bound_(bound_deviation(mesh, scan_, {.limit = limit})) {}
 
   double largest() const {
@@ -295,7 +295,7 @@ class KnownDeviation {
     }
   }
 
-  DeviationReference scan_;
+  const DeviationReference& scan_;
   double limit_;
   DeviationBound bound_;
 };
@@ -321,14 +321,15 @@ LocalRefinementResult refine_worst(SurfaceMesh& mesh, const ReferenceSurface& sc
 BoundedRefinementResult refine_within(SurfaceMesh& mesh, const ReferenceSurface& scan,
                                       const LocalRefinementOptions& options, const Progress& progress) {
   FeatureNet none;
-  return refine_within(mesh, none, scan, options, progress);
+  return refine_within(mesh, none, scan, DeviationReference(scan.mesh), options, progress);
 }
 
 BoundedRefinementResult refine_within(SurfaceMesh& mesh, FeatureNet& net, const ReferenceSurface& scan,
-                                      const LocalRefinementOptions& options, const Progress& progress) {
+                                      const DeviationReference& reference, const LocalRefinementOptions& options,
+                                      const Progress& progress) {
   check(options);
   net.patch_of_face.clear();
-  KnownDeviation known(mesh, scan.mesh, goal_limit(options));
+  KnownDeviation known(mesh, reference, goal_limit(options));
   LocalRefinementOptions left = options;
   BoundedRefinementResult result;
   int yielded = 0;

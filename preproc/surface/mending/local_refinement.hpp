@@ -8,6 +8,7 @@
 #include "preproc/mesh/progress.hpp"
 #include "preproc/surface/features/feature_net.hpp"
 #include "preproc/surface/fit/reference_surface.hpp"
+#include "quality/deviation_bound.hpp"
 
 #include <cstddef>
 #include <limits>
@@ -55,8 +56,9 @@ BoundedRefinementResult refine_within(SurfaceMesh& mesh, const ReferenceSurface&
                                       const LocalRefinementOptions& options, const Progress& progress = {});
 
 // The same with features: vertices on the net's lines stay where they are, and new ones come between them. The net's
-// patches of faces are emptied.
+// patches of faces are emptied. `reference`: of scan.mesh.
 BoundedRefinementResult refine_within(SurfaceMesh& mesh, FeatureNet& net, const ReferenceSurface& scan,
-                                      const LocalRefinementOptions& options, const Progress& progress = {});
+                                      const DeviationReference& reference, const LocalRefinementOptions& options,
+                                      const Progress& progress = {});
 
 }  // namespace scan2fea

@@ -4,6 +4,7 @@
 #include "preproc/surface/features/feature_scan.hpp"
 #include "preproc/surface/fit/reference_surface.hpp"
 #include "preproc/surface/sizing/sizing_field.hpp"
+#include "quality/deviation_bound.hpp"
 
 #include <memory>
 #include <optional>
@@ -54,6 +55,12 @@ class PreparedScan {
     return *reference_;
   }
 
+  // The reference's surface, for bounds of the deviation from it; made by the first call, too.
+  const DeviationReference& deviation_reference() const {
+    if (!deviation_reference_) deviation_reference_ = std::make_shared<const DeviationReference>(reference().mesh);
+    return *deviation_reference_;
+  }
+
   // Edge lengths that the sizing asks for, per vertex.
   std::vector<double> wanted_lengths(const SizingOptions& sizing) const {
     return compute_sizing_field(mesh, sizing, has_features() ? &features_.cut : nullptr).edge_length;
@@ -76,6 +83,7 @@ class PreparedScan {
   std::shared_ptr<const SurfaceMesh> kept_;  // `mesh`, where nobody else keeps it
   FeatureScan features_;
   mutable std::optional<ReferenceSurface> reference_;
+  mutable std::shared_ptr<const DeviationReference> deviation_reference_;  // refers to reference_
 };
 
 using PreparedScanPointer = std::shared_ptr<const PreparedScan>;

@@ -4,6 +4,7 @@
 #include "preproc/surface/features/feature_selection.hpp"
 #include "preproc/surface/fit/preserve_volume.hpp"
 #include "preproc/surface/mending/local_refinement.hpp"
+#include "preproc/surface/mending/mend_places.hpp"
 #include "preproc/surface/simplification/deviation_at_scan.hpp"
 #include "preproc/surface/simplification/error_sizing.hpp"
 #include "preproc/surface/sizing/size_limits.hpp"
@@ -38,6 +39,8 @@ constexpr double worth_it_deg = 0.5, worth_it_of_deviation = 0.9;
 
 // Angles that are aimed at. Where time matters, the optimisation of the tetrahedra copes with smaller ones.
 constexpr double good_of_few_deg = 30, good_of_many_deg = 17;
+// Places below are mended where they are.
+constexpr double mended_deg = 30;
 
 // With more bad triangles than this the size as a whole is wrong, not places.
 constexpr double share_of_many = 0.1;
@@ -98,7 +101,7 @@ bool SurfaceSearch::Trial::has_many_bad() const {
 }
 
 SurfaceSearch::SurfaceSearch(PreparedScanPointer scan, WantedSurface wanted, const SimplifyOptions& options)
-    : scan_(std::move(scan)), wanted_(std::move(wanted)), options_(options) {
+    : first_scan_(scan), scan_(std::move(scan)), wanted_(std::move(wanted)), options_(options) {
   sizing_.triangles = wanted_.triangles;
   sizing_.sizing = options.sizing;
   sizing_.gradation = options.gradation;
@@ -153,7 +156,6 @@ std::optional<Candidate> SurfaceSearch::run_again(std::span<const ShorterEdges> 
 void SurfaceSearch::set_first_sizing(const Progress& progress) {
   const PreparedScan& scan = *scan_;
   if (wanted_.deviation) {
-    reference_.emplace(scan.mesh);
     length_ = lengths_for_deviation(scan.mesh, wanted_.deviation->distance, options_.gradation,
                                     scan.has_features() ? &scan.features().cut : nullptr);
     ask_for_lower_lengths(most_triangles());
@@ -202,7 +204,7 @@ SurfaceSearch::Trial SurfaceSearch::judged(Candidate candidate, const Progress& 
     judge_deviation(made, progress);
   else if (made.candidate.method == SimplifyMethod::lattice)
     lower_worst(made.candidate, options_.effort, progress);
-  open_wedges_within(made);
+  mend_shape(made, progress);
   made.mean_edge_ratio = measure_triangles(made.candidate.mesh).edge_ratio.mean;
   const bool few = made.candidate.faces() < many_triangles && options_.for_tetrahedra && !wanted_.deviation;
   made.shape = find_shape_defects(
@@ -213,7 +215,8 @@ SurfaceSearch::Trial SurfaceSearch::judged(Candidate candidate, const Progress& 
 
 void SurfaceSearch::judge_deviation(Trial& made, const Progress& progress) const {
   const double distance = wanted_.deviation->distance;
-  const DeviationBound bound = bound_deviation(made.candidate.mesh, *reference_, {.limit = distance});
+  const DeviationBound bound =
+      bound_deviation(made.candidate.mesh, made.candidate.scan->deviation_reference(), {.limit = distance});
   note_deviation(made, bound);
   made.share_beyond = share_beyond(bound.to_reference, distance);
   made.mean_edge_ratio = measure_triangles(made.candidate.mesh).edge_ratio.mean;
@@ -223,16 +226,14 @@ void SurfaceSearch::judge_deviation(Trial& made, const Progress& progress) const
 
 void SurfaceSearch::note_deviation(Trial& made, const DeviationBound& bound) const {
   const PreparedScan& scan = *made.candidate.scan;
-  made.candidate.largest_deviation = bound.upper();
-  const auto largest = [](double a, double b) { return std::max(a, b); };
-  const auto at_scan = [&](const DeviationBound& of_its_faces) {
-    return scan.by_vertex(deviation_at_scan(made.candidate.mesh, scan.reference(), of_its_faces), largest);
-  };
+  made.deviation = scan.by_vertex(deviation_at_scan(made.candidate.mesh, scan.reference(), bound),
+                                  [](double a, double b) { return std::max(a, b); });
   // Edges as short as the shape needs came with a scan of other faces.
-  made.deviation =
-      &scan.mesh == &reference_->mesh()
-          ? at_scan(bound)
-          : at_scan(bound_deviation(made.candidate.mesh, scan.mesh, {.limit = wanted_.deviation->distance}));
+  const double limit = wanted_.deviation->distance;
+  made.candidate.largest_deviation =
+      &scan.mesh == &first_scan_->mesh
+          ? bound.upper()
+          : bound_deviation(made.candidate.mesh, first_scan_->deviation_reference(), {.limit = limit}).upper();
 }
 
 // What the edge lengths leave too far is brought near place by place; then the exact volume.
@@ -254,24 +255,37 @@ void SurfaceSearch::bring_within(Trial& made, const Progress& progress) const {
   for (int trial = 0; trial < trials; ++trial) {
     options.limit = (1 - for_volume * std::pow(2, trial)) * deviation;
     const BoundedRefinementResult refined =
-        refine_within(surface, made.candidate.net, scan.reference(), options, progress);
+        refine_within(surface, made.candidate.net, scan.reference(), scan.deviation_reference(), options, progress);
     if (scan.is_closed())
       preserve_volume_clear(surface, scan.mesh, held_lines(made.candidate.net, surface.vertices.size()));
-    note_deviation(made, bound_deviation(surface, *reference_, {.limit = deviation}));
+    note_deviation(made, bound_deviation(surface, scan.deviation_reference(), {.limit = deviation}));
     if (holds(made) || refined.largest_deviation > options.limit) break;
   }
 }
 
-// A deviation that was asked for comes before the tetrahedra.
-void SurfaceSearch::open_wedges_within(Trial& made) const {
-  Candidate opened = made.candidate;
-  if (!open_wedges(opened, options_)) return;
-  if (wanted_.deviation) {
-    const double distance = wanted_.deviation->distance;
-    opened.largest_deviation = bound_deviation(opened.mesh, *reference_, {.limit = distance}).upper();
-    if (wanted_.deviation->required && opened.largest_deviation > distance) return;
-  }
-  made.candidate = std::move(opened);
+// Bad triangles, folds and wedges are mended where they are, unless there are so many that the size is wrong. A
+// deviation that was asked for comes first.
+void SurfaceSearch::mend_shape(Trial& made, const Progress& progress) const {
+  made.shape = find_shape_defects(made.candidate, {.least_angle_deg = mended_deg, .walls = options_.for_tetrahedra});
+  if (made.shape.bad.empty() || made.has_many_bad() || made.candidate.method != SimplifyMethod::lattice) return;
+  const PreparedScan& scan = *made.candidate.scan;
+  Candidate mended = made.candidate;
+  MendPlacesOptions options;
+  options.limit = wanted_.deviation ? wanted_.deviation->distance : made.candidate.fit.largest_distance;
+  options.least_angle_deg = mended_deg;
+  const MendPlacesResult result = mend_places(mended.mesh, mended.net, scan.reference(),
+                                              scan.deviation_reference().tree(), made.shape.bad, options, progress);
+  if (result.mended == 0) return;
+  if (scan.is_closed())
+    preserve_volume_clear(mended.mesh, scan.mesh, held_lines(mended.net, mended.mesh.vertices.size()));
+  Trial after = made;
+  after.candidate = std::move(mended);
+  if (wanted_.deviation)
+    note_deviation(after, bound_deviation(after.candidate.mesh, scan.deviation_reference(),
+                                          {.limit = wanted_.deviation->distance}));
+  if (holds(made) && !holds(after)) return;
+  made = std::move(after);
+  made.shape = find_shape_defects(made.candidate, {.least_angle_deg = mended_deg, .walls = options_.for_tetrahedra});
 }
 
 bool SurfaceSearch::holds(const Trial& made) const {

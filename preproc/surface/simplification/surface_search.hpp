@@ -71,7 +71,7 @@ class SurfaceSearch {
   void judge_deviation(Trial& made, const Progress& progress) const;
   void note_deviation(Trial& made, const DeviationBound& bound) const;
   void bring_within(Trial& made, const Progress& progress) const;
-  void open_wedges_within(Trial& made) const;
+  void mend_shape(Trial& made, const Progress& progress) const;
   bool holds(const Trial& made) const;
   bool is_shapely(const Trial& made) const;
   bool is_accepted(const Trial& made) const;
@@ -82,8 +82,8 @@ class SurfaceSearch {
   bool ask_for_lower_lengths(double most_triangles);
   double most_triangles() const;
 
-  PreparedScanPointer scan_;
-  std::optional<DeviationReference> reference_;  // the scan, where the deviation is a judge
+  PreparedScanPointer first_scan_;
+  PreparedScanPointer scan_;  // with the creases to ask for
   WantedSurface wanted_;
   const SimplifyOptions& options_;
   SizingOptions sizing_;
