@@ -327,7 +327,7 @@ SurfaceMesh near_flush_posts(double off) {
         add(mesh, box({i == 0 ? d : 60, j == 0 ? d : 60, 5}, {i == 0 ? 20 : 80 - d, j == 0 ? 20 : 80 - d, 30}));
       } else {
         add(mesh, box({x + 6, y + 6, 5}, {x + 14, y + 14, 25}));
-        add(mesh, box({x + 14 - d, y + 6 + d, 5}, {x + 18, y + 14 + d, 25 - d}));
+        add(mesh, box({x + 14 - d, y + 6 + d, 5}, {x + 18, y + 14 + d, 22}));
       }
     }
   return mesh;

@@ -32,6 +32,10 @@ constexpr double longest_scan_edge = 0.7;
 // Residuals beyond this part of the mean edge are suspected of a wrong location.
 constexpr double suspicious_part_of_edge = 0.2;
 
+double square(double x) {
+  return x * x;
+}
+
 constexpr double third = 1. / 3;
 constexpr std::array<std::array<double, 3>, 4> face_samples{
     {{third, third, third}, {2. / 3, 1. / 6, 1. / 6}, {1. / 6, 2. / 3, 1. / 6}, {1. / 6, 1. / 6, 2. / 3}}};
@@ -70,6 +74,20 @@ void Fitter::set_fidelity(double fidelity) {
   weight_unit_ = static_cast<double>(mesh_.triangles.size()) / (scan_.area * unit * unit);
   if (options_.lift_tail_of_diagonal)
     tail_ = *options_.lift_tail_of_diagonal * fidelity / options_.fidelity_of_diagonal * scan_.diagonal;
+  weight_of_body_.assign(std::max<std::size_t>(1, scan_.diagonal_of_body.size()), 1);
+  for (std::size_t b = 0; b < scan_.diagonal_of_body.size(); ++b)
+    weight_of_body_[b] = square(scan_.diagonal / scan_.diagonal_of_body[b]);
+}
+
+double Fitter::set_fidelity_by_residual(double factor, double loosest, const ShapeFitResult& located) {
+  const auto of = [&](double distance, double diagonal) {
+    return std::clamp(factor * distance / diagonal, options_.fidelity_of_diagonal, loosest);
+  };
+  const double fidelity = of(located.rms_distance, scan_.diagonal);
+  set_fidelity(fidelity);
+  for (std::size_t b = 0; b < scan_.diagonal_of_body.size(); ++b)
+    weight_of_body_[b] *= square(fidelity / of(distance_of_body_[b], scan_.diagonal_of_body[b]));
+  return fidelity;
 }
 
 void Fitter::locate_samples(ShapeFitResult& result) {
@@ -251,12 +269,11 @@ double Fitter::lift(double squared_distance) const {
   return std::min(1 + ratio * ratio, options_.most_lift);
 }
 
-double Fitter::weight_of_body(const ByFace& by_face, std::size_t f) const {
-  if (scan_.weight_of_body.empty()) return 1;
+std::size_t Fitter::body_of(const ByFace& by_face, std::size_t f) const {
+  if (weight_of_body_.size() == 1) return 0;
   if (by_face.first[f] < by_face.first[f + 1])
-    return scan_.weight_of_body[forward_.vertex[by_face.order[by_face.first[f]]]];
-  if (on_scan_.empty()) return 1;
-  return scan_.weight_of_body[scan_.mesh.triangles[on_scan_[face_samples.size() * f].face][0]];
+    return scan_.body_of_vertex[forward_.vertex[by_face.order[by_face.first[f]]]];
+  return on_scan_.empty() ? 0 : scan_.body_of_vertex[scan_.mesh.triangles[on_scan_[face_samples.size() * f].face][0]];
 }
 
 void Fitter::reset_and_condense(const ByFace& by_face) {
@@ -268,7 +285,7 @@ void Fitter::reset_and_condense(const ByFace& by_face) {
       fit.normal = normals_[f];
       const double area = area_vector(mesh_, mesh_.triangles[f]).norm() / 2;
       const double held_area = options_.hold_faces_below * scan_.area / static_cast<double>(fits_.size());
-      const double body = weight_of_body(by_face, f);
+      const double body = weight_of_body_[body_of(by_face, f)];
       const double hold = body * (area > 0 ? std::clamp(held_area / area, 1.0, 100.0) : 1.0);
       for (std::uint32_t k = by_face.first[f]; k < by_face.first[f + 1]; ++k) {
         const std::uint32_t s = by_face.order[k];
@@ -290,7 +307,7 @@ void Fitter::reset_and_condense(const ByFace& by_face) {
   });
 }
 
-void Fitter::measure(ShapeFitResult& result) const {
+void Fitter::measure(ShapeFitResult& result) {
   double sum = 0;
   double total = 0;
   std::vector<double>& largest = result.largest_distance_of_face;
@@ -315,8 +332,23 @@ void Fitter::measure(ShapeFitResult& result) const {
   }
   result.rms_distance = std::max(result.rms_distance, mean());
   for (double& d : largest) d = std::sqrt(d);
+  measure_bodies();
   result.largest_distance = *std::max_element(largest.begin(), largest.end());
   result.samples = locations_.size() + on_scan_.size();
+}
+
+// RMS distance of the scan's samples.
+void Fitter::measure_bodies() {
+  if (scan_.diagonal_of_body.empty()) return;
+  std::vector<double> sum(scan_.diagonal_of_body.size(), 0), total(sum);
+  for (std::size_t s = 0; s < locations_.size(); ++s) {
+    const std::uint32_t b = scan_.body_of_vertex[forward_.vertex[s]];
+    sum[b] += forward_.samples[s].weight * (forward_.samples[s].point - point_at(mesh_, locations_[s])).squaredNorm();
+    total[b] += forward_.samples[s].weight;
+  }
+  distance_of_body_.assign(sum.size(), 0);
+  for (std::size_t b = 0; b < sum.size(); ++b)
+    if (total[b] > 0) distance_of_body_[b] = std::sqrt(sum[b] / total[b]);
 }
 
 bool Fitter::add_star(std::uint32_t v, Vec3& gradient, Eigen::Matrix3d& hessian, double& least_squared_length) const {

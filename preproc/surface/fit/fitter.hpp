@@ -29,6 +29,10 @@ class Fitter {
   // The dial between shape and fit, of the diagonal; from the next location on.
   void set_fidelity(double fidelity);
 
+  // The same as `factor` times the RMS distance over the diagonal, each body's own, between the given fidelity and the
+  // loosest; returns that of all. After a location.
+  double set_fidelity_by_residual(double factor, double loosest, const ShapeFitResult& located);
+
   // Locates all samples anew, condenses them, and measures how far they are.
   void locate_samples(ShapeFitResult& result);
 
@@ -69,10 +73,11 @@ class Fitter {
 
   // The factor on a sample's weight by its distance, see ShapeFitOptions::lift_tail_of_diagonal.
   double lift(double squared_distance) const;
-  // Of the body that the face lies on.
-  double weight_of_body(const ByFace& by_face, std::size_t f) const;
+  // That the face lies on.
+  std::size_t body_of(const ByFace& by_face, std::size_t f) const;
   void reset_and_condense(const ByFace& by_face);
-  void measure(ShapeFitResult& result) const;
+  void measure(ShapeFitResult& result);
+  void measure_bodies();
 
   // Adds the derivatives of the energy by the place of v. False where a face around it has no area.
   bool add_star(std::uint32_t v, Vec3& gradient, Eigen::Matrix3d& hessian, double& least_squared_length) const;
@@ -87,7 +92,8 @@ class Fitter {
   std::vector<std::vector<std::uint32_t>> colours_;
   double mean_edge_;
   double weight_unit_ = 0;
-  double tail_ = 0;  // model units
+  double tail_ = 0;                                        // model units
+  std::vector<double> weight_of_body_, distance_of_body_;  // by ReferenceSurface's bodies; one weight for one body
   SurfaceSamples forward_;
   std::vector<Vec3> normals_;
   std::vector<Location> locations_;  // of the scan's samples on the mesh

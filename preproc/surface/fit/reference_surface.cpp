@@ -26,14 +26,11 @@ ReferenceSurface::ReferenceSurface(const FeatureScan& scan) : ReferenceSurface(s
 void ReferenceSurface::measure_by_body() {
   const Components bodies = find_components(whole);
   if (bodies.count < 2) return;
-  const std::vector<double> own = diagonals(whole, bodies);
-  diagonal = *std::max_element(own.begin(), own.end());
-  weight_of_body.resize(mesh.vertices.size());
+  diagonal_of_body = diagonals(whole, bodies);
+  diagonal = *std::max_element(diagonal_of_body.begin(), diagonal_of_body.end());
+  body_of_vertex.resize(mesh.vertices.size());
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double ratio = diagonal / own[bodies.of_vertex[whole.triangles[f][k]]];
-      weight_of_body[mesh.triangles[f][k]] = ratio * ratio;
-    }
+    for (std::size_t k = 0; k < 3; ++k) body_of_vertex[mesh.triangles[f][k]] = bodies.of_vertex[whole.triangles[f][k]];
 }
 
 }  // namespace scan2fea

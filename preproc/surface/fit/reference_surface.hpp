@@ -29,9 +29,9 @@ struct ReferenceSurface {
   // features.
   std::vector<std::uint32_t> patch_of_vertex;
   double diagonal = 0;  // of the bounding box
-  // Per vertex the square of `diagonal` over its body's own: how much heavier distances weigh there. Empty where all
-  // count alike.
-  std::vector<double> weight_of_body;
+  // Where several bodies are told apart: the one of each vertex, and their diagonals. Empty where there is one.
+  std::vector<std::uint32_t> body_of_vertex;
+  std::vector<double> diagonal_of_body;
   double area = 0;
 
   // From now on the diagonal is that of the largest body, and each body's distances are held against its own. For one

@@ -37,7 +37,7 @@ void check(const SurfaceMesh& mesh, const ReferenceSurface& scan, const ShapeFit
 
 // The rounds; after_sweep(round) moves what the sweeps leave alone.
 template <class AfterSweep>
-ShapeFitResult run_rounds(Fitter& fitter, double diagonal, const ShapeFitOptions& options, const Progress& progress,
+ShapeFitResult run_rounds(Fitter& fitter, const ShapeFitOptions& options, const Progress& progress,
                           const AfterSweep& after_sweep) {
   // Before this round the distances are those of the start, not of what the triangles can reach.
   constexpr int first_dialled_round = 2;
@@ -48,9 +48,7 @@ ShapeFitResult run_rounds(Fitter& fitter, double diagonal, const ShapeFitOptions
     progress("shape and fit", static_cast<double>(round) / options.rounds);
     const int dialled = round - first_dialled_round;
     if (options.fidelity_of_residual && dialled >= 0 && dialled < options.rounds_of_dialling) {
-      result.fidelity_of_diagonal = std::clamp(*options.fidelity_of_residual * result.rms_distance / diagonal,
-                                               options.fidelity_of_diagonal, loosest);
-      fitter.set_fidelity(result.fidelity_of_diagonal);
+      result.fidelity_of_diagonal = fitter.set_fidelity_by_residual(*options.fidelity_of_residual, loosest, result);
     }
     fitter.locate_samples(result);
     for (int s = 0; s < options.sweeps; ++s) {
@@ -67,7 +65,7 @@ ShapeFitResult optimise_shape_and_fit(SurfaceMesh& mesh, const ReferenceSurface&
                                       const Progress& progress) {
   check(mesh, scan, options);
   Fitter fitter(mesh, scan, options, {});
-  return run_rounds(fitter, scan.diagonal, options, progress, [](int) {});
+  return run_rounds(fitter, options, progress, [](int) {});
 }
 
 ShapeFitResult optimise_shape_and_fit(SurfaceMesh& mesh, FeatureNet& net, const ReferenceSurface& scan,
@@ -77,7 +75,7 @@ ShapeFitResult optimise_shape_and_fit(SurfaceMesh& mesh, FeatureNet& net, const 
   CutMesh cut(mesh, net);
   const ShapeFitOptions cut_options = cut.options_for(options, scan);
   Fitter fitter(cut.mesh(), scan, cut_options, cut.patch_of_vertex());
-  const ShapeFitResult result = run_rounds(fitter, scan.diagonal, options, progress, [&](int round) {
+  const ShapeFitResult result = run_rounds(fitter, options, progress, [&](int round) {
     if (round >= rounds_before_sliding) slide_all(fitter, cut, net, options.constraints);
   });
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) mesh.vertices[v] = cut.mesh().vertices[v];

@@ -26,8 +26,8 @@ constexpr double largest_tolerance_of_edge = 0.05;
 constexpr double gradation_from_curves = 0.25;
 // Rounds of sampling the curves and of telling the surface what came of it.
 constexpr int rounds_of_spacing = 2;
-// Curves are sampled as their corners, and the tolerance, ask for, but the surface beside them takes no shorter lengths
-// than this part of the wanted ones: two corners at nearly the same place would make all of it fine.
+// Where the number of triangles is free, the surface beside curves takes no shorter lengths than this part of the
+// wanted ones: two corners at nearly the same place would make all of it fine.
 constexpr double least_spacing = 0.1;
 // A sample so near to a vertex of its curve, in parts of the segment, takes the vertex.
 constexpr double snap = 1e-3;
@@ -91,13 +91,13 @@ std::vector<double> spacing_along(const std::vector<double>& arc, const FeatureC
 }
 
 // What the samples are apart becomes the wanted length along the curves; at corners, the shortest.
-void take_spacing(Welded& scan, const FeatureCurves& curves, const SampledPlaces& places) {
+void take_spacing(Welded& scan, const FeatureCurves& curves, const SampledPlaces& places, double least) {
   std::vector<double> spacing(scan.mesh.vertices.size(), 0);
   for (std::size_t c = 0; c < curves.curves.size(); ++c) {
     const FeatureCurve& curve = curves.curves[c];
     const std::vector<double> along = spacing_along(arc_lengths(scan.mesh, curve), curve, places[c]);
     for (std::size_t i = 0; i < along.size(); ++i) {
-      const double asked = std::max(along[i], least_spacing * scan.edge_length[curve.vertices[i]]);
+      const double asked = std::max(along[i], least * scan.edge_length[curve.vertices[i]]);
       double& s = spacing[curve.vertices[i]];
       s = s > 0 ? std::min(s, asked) : asked;
     }
@@ -272,6 +272,7 @@ AnchoredScan anchor_scan(const FeatureScan& scan, const SizingOptions& options, 
       scan.tolerance.largest,
       std::max(scan.tolerance.least,
                mean_edge * std::min(largest_tolerance_of_edge, tolerance_growth * std::pow(mean_edge / diagonal, 3))));
+  const double least = options.keeps_count ? 0 : least_spacing;
   FeatureCurves curves;
   SampledPlaces places;
   const auto sample = [&] {
@@ -281,12 +282,12 @@ AnchoredScan anchor_scan(const FeatureScan& scan, const SizingOptions& options, 
   };
   for (int round = 0; round < rounds_of_spacing; ++round) {
     sample();
-    take_spacing(welded, curves, places);
+    take_spacing(welded, curves, places, least);
     if (options.keeps_count) scale_to(welded, wanted);
     refine();
   }
   sample();
-  take_spacing(welded, curves, places);
+  take_spacing(welded, curves, places, least);
   if (!options.keeps_count) wanted = predicted_triangles(welded.mesh, {welded.edge_length});
   insert_samples(welded, curves, places);
 

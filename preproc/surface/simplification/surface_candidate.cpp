@@ -39,9 +39,9 @@ constexpr double fidelity_of_parts = 0.0003;
 // Of the fit, in which it finds out how near the triangles can come.
 constexpr int first_rounds = 2;
 
-// Of the faces. Where all points are bounded afterwards, a few that oppose a rough scan do not make a surface useless,
-// and there is none without at sizes below the scan's own. Without a bound only as many as a scan's own folds leave
-// among very many: to give up the lattice for one of half a million costs far more than it mends.
+// Of the faces. Where all points are bounded afterwards, a few that oppose a rough scan do not make a surface
+// useless, and there is none without at sizes below the scan's own. Without a bound only as many as a scan's own
+// folds leave among very many: to give up the lattice for one of half a million costs far more than it mends.
 constexpr double most_inverted_within_deviation = 0.001, most_inverted = 1e-5;
 
 // What an effort buys. Trials differ by a little in the sizing, which lays another lattice: of several, the distances
@@ -168,37 +168,68 @@ Candidate best_by_lattice(const PreparedScanPointer& scan, const SizingOptions& 
   return best.mesh.triangles.empty() ? failed : best;
 }
 
-// Whether a part kept its shape. The bounds are those of triangles that serve: a mean edge ratio that isotropic
-// remeshing reaches on parts, and a distance above that of the default job.
-bool keeps_shape(const Candidate& candidate) {
-  constexpr double worst_mean_edge_ratio = 1.25, largest_deviation = 0.003;  // of a body's diagonal
-  if (!candidate.failure.empty()) return false;
-  if (measure_triangles(candidate.mesh).edge_ratio.mean > worst_mean_edge_ratio) return false;
+// Whether a part came out far from where it was. The bound is above that of the default job.
+bool is_far(const Candidate& candidate) {
+  constexpr double largest_deviation = 0.003;  // of a body's diagonal
   const Components bodies = find_components(candidate.mesh);
   const std::vector<double> diagonal = diagonals(candidate.mesh, bodies);
   for (std::size_t f = 0; f < candidate.faces(); ++f)
     if (candidate.fit.largest_distance_of_face[f] >
         largest_deviation * diagonal[bodies.of_vertex[candidate.mesh.triangles[f][0]]])
-      return false;
-  return true;
+      return true;
+  return false;
 }
 
-// Edges around the places where a surface failed, shorter.
-void shorten_where_failed(const Candidate& failed, double gradation, std::vector<double>& length) {
+// What isotropic remeshing reaches on parts, and more.
+bool is_ill_shaped(const Candidate& candidate) {
+  constexpr double worst_mean_edge_ratio = 1.25;
+  return measure_triangles(candidate.mesh).edge_ratio.mean > worst_mean_edge_ratio;
+}
+
+// The smallest angle but for those between two creases, with where those below the limit are.
+double smallest_angle_beside_creases_deg(const Candidate& candidate, double limit_deg, std::vector<Vec3>& below) {
+  const SurfaceMesh& mesh = candidate.mesh;
+  const std::vector<FeatureEdge> creases = edges_of(candidate.net);
+  const auto is_crease = [&](std::uint32_t a, std::uint32_t b) {
+    return std::binary_search(creases.begin(), creases.end(), feature_edge(a, b));
+  };
+  double smallest = 60;
+  for (const Triangle& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t v = t[k], next = t[(k + 1) % 3], last = t[(k + 2) % 3];
+      const double angle = angle_deg(mesh.vertices[v], mesh.vertices[next], mesh.vertices[last]);
+      if (angle >= std::max(smallest, limit_deg) || (is_crease(v, next) && is_crease(v, last))) continue;
+      smallest = std::min(smallest, angle);
+      if (angle < limit_deg) below.push_back(mesh.vertices[v]);
+    }
+  return smallest;
+}
+
+// Shorter edges around places where a surface came out badly.
+void shorten_around(const std::vector<Vec3>& bad, const SurfaceMesh& scan, double gradation,
+                    std::vector<double>& length) {
   constexpr double factor = 0.6, reach = 3;  // edges
-  const SurfaceMesh& scan = failed.scan->mesh;
-  const std::vector<std::uint32_t> near =
-      nearest_vertices(failed.failed_at, std::vector<Vec3>(failed.failed_at.size(), Vec3::Zero()), scan, 0);
+  const std::vector<std::uint32_t> near = nearest_vertices(bad, std::vector<Vec3>(bad.size(), Vec3::Zero()), scan, 0);
   std::vector<ShorterEdges> places;
-  for (std::size_t i = 0; i < near.size(); ++i)
-    places.push_back({{failed.failed_at[i], reach * length[near[i]]}, factor});
+  for (std::size_t i = 0; i < near.size(); ++i) places.push_back({{bad[i], reach * length[near[i]]}, factor});
   shorten_around(places, scan, length);
   limit_gradation(scan, gradation, length);
 }
 
-// Where the lattice gives way: contractions towards the same sizing, none of which makes faces meet, then the same fit.
-// Where the fit ends in crossings that cannot be mended, vertices go only as far towards it as nothing meets, and
-// where the shape needs more triangles than were asked for, it keeps them: this way always ends in a sound surface.
+// Smaller ones, where no creases make them, are worth another lattice.
+constexpr double poor_angle_deg = 15;
+
+// Whether its smallest angle is no smaller, or no poor one.
+bool is_as_well_shaped(const Candidate& candidate, const Candidate& other) {
+  std::vector<Vec3> bad;
+  return smallest_angle_beside_creases_deg(candidate, 0, bad) >=
+         std::min(poor_angle_deg, smallest_angle_beside_creases_deg(other, 0, bad));
+}
+
+// Where the lattice gives way: contractions towards the same sizing, none of which makes faces meet, then the same
+// fit. Where the fit ends in crossings that cannot be mended, vertices go only as far towards it as nothing meets,
+// and where the shape needs more triangles than were asked for, it keeps them: this way always ends in a sound
+// surface.
 Candidate by_contraction(const PreparedScanPointer& prepared, const SizingOptions& sizing, const FitPlan& plan,
                          const Progress& progress) {
   const PreparedScan& scan = *prepared;
@@ -305,13 +336,16 @@ Candidate make_surface(const PreparedScanPointer& scan, const SizingOptions& siz
     return candidate;
   }
   Candidate candidate = best_by_lattice(scan, sizing, plan, progress);
-  if (plan.within_deviation ? candidate.failure.empty() : keeps_shape(candidate)) return candidate;
+  const bool failed = !candidate.failure.empty();
   // A deviation asks for shorter edges itself.
   if (!plan.within_deviation && is_part(scan->given)) {
-    Candidate by_shape = make_surface_by_shape(*scan, sizing, options, effort, progress);
-    if (by_shape.failure.empty()) return by_shape;
+    const bool lost_shape = failed || is_far(candidate);
+    if (!lost_shape && !is_ill_shaped(candidate)) return candidate;
+    Candidate by_shape =
+        make_surface_by_shape(*scan, sizing, options, effort, shape_budget(sizing.triangles, lost_shape), progress);
+    if (by_shape.failure.empty() && (failed || is_as_well_shaped(by_shape, candidate))) return by_shape;
   }
-  if (candidate.failure.empty()) return candidate;
+  if (!failed) return candidate;
   if (scan->has_creases()) candidate = with_fewer_creases(std::move(candidate), sizing, plan, progress);
   if (!candidate.failure.empty()) {
     std::string reason = std::move(candidate.failure);
@@ -323,26 +357,36 @@ Candidate make_surface(const PreparedScanPointer& scan, const SizingOptions& siz
 }
 
 Candidate make_surface_by_shape(const PreparedScan& scan, const SizingOptions& sizing, const SimplifyOptions& options,
-                                Effort effort, const Progress& progress) {
-  constexpr double most_triangles = 3, few_triangles = 40000;
-  constexpr int most_trials = 3;
+                                Effort effort, const ShapeBudget& budget, const Progress& progress) {
   FitPlan plan = plan_of(effort);
   plan.within_deviation = true;  // small faces are held to the scan as large ones are
-  const double most = std::max(most_triangles * sizing.triangles, few_triangles);
-  ScanByShape by_shape = prepare_by_shape(scan, sizing, options, most);
-  Candidate candidate;
-  for (int trial = 0; trial < most_trials; ++trial) {
+  ScanByShape by_shape = prepare_by_shape(scan, sizing, options, budget.triangles);
+  Candidate best;
+  double best_angle_deg = -1;
+  for (int trial = 0; trial < budget.trials; ++trial) {
     SizingOptions asked = sizing;
     asked.gradation *= 2;
     asked.keeps_count = false;
     ask_for_lengths(by_shape.scan->mesh, by_shape.length, asked);
-    if (trial > 0 && asked.triangles > most) break;
-    candidate = best_by_lattice(by_shape.scan, asked, plan, progress);
-    if (candidate.failure.empty()) break;
-    shorten_where_failed(candidate, asked.gradation, by_shape.length);
+    if (trial > 0 && asked.triangles > 1.5 * budget.triangles) break;
+    Candidate candidate = best_by_lattice(by_shape.scan, asked, plan, progress);
+    candidate.lengths_by_shape = by_shape.length;
+    double angle_deg = -1;
+    std::vector<Vec3> bad = candidate.failed_at;
+    if (candidate.failure.empty()) angle_deg = smallest_angle_beside_creases_deg(candidate, poor_angle_deg, bad);
+    if (trial == 0 || angle_deg > best_angle_deg) {
+      best = std::move(candidate);
+      best_angle_deg = angle_deg;
+    }
+    if (angle_deg >= poor_angle_deg || bad.empty()) break;
+    shorten_around(bad, by_shape.scan->mesh, asked.gradation, by_shape.length);
   }
-  candidate.lengths_by_shape = std::move(by_shape.length);
-  return candidate;
+  return best;
+}
+
+ShapeBudget shape_budget(double wanted, bool lost_shape) {
+  constexpr double most = 3, few = 8000, few_of_lost = 40000;
+  return {.triangles = std::max(most * wanted, lost_shape ? few_of_lost : few), .trials = lost_shape ? 3 : 1};
 }
 
 void lower_worst(Candidate& candidate, Effort effort, const Progress& progress) {

@@ -42,10 +42,18 @@ struct Candidate {
 Candidate make_surface(const PreparedScanPointer& scan, const SizingOptions& sizing, const SimplifyOptions& options,
                        Effort effort, const Progress& progress);
 
-// By the lattice with edges as short as the scan's shape needs (shape_lengths.hpp), in places shorter where it fails:
-// as many triangles as that takes, up to three times the wanted ones or 40,000. `failure` says so where none came out.
+// What a part's shape may take: triangles, about, and lattices. Three times the wanted triangles, or what costs little;
+// more where the part would be lost.
+struct ShapeBudget {
+  double triangles;
+  int trials;
+};
+ShapeBudget shape_budget(double wanted_triangles, bool lost_shape);
+
+// By the lattice with edges as short as the scan's shape needs (shape_lengths.hpp), in places shorter where it fails.
+// `failure` says so where none came out.
 Candidate make_surface_by_shape(const PreparedScan& scan, const SizingOptions& sizing, const SimplifyOptions& options,
-                                Effort effort, const Progress& progress);
+                                Effort effort, const ShapeBudget& budget, const Progress& progress);
 
 // The largest distances are at a few fins and folds thinner than the triangles, far from all others: these places get
 // triangles of their own, so few that the count stays within what was asked for. Where the effort asks for it, and not

@@ -125,11 +125,13 @@ std::vector<bool> may_be_walls(const Shape& shape) {
 
 // Per face.
 class ShapeLengths {
+  static constexpr double slack = 2;
+
  public:
   ShapeLengths(double shortest, double longest) : shortest_(shortest), longest_(longest) {}
 
   // Asks for the faces that changed since.
-  void renew(const SurfaceMesh& mesh, const std::vector<FeatureEdge>& creases) {
+  void renew(const SurfaceMesh& mesh, const std::vector<FeatureEdge>& creases, const std::vector<double>& known) {
     const std::vector<Triangle> neighbours = face_neighbours(mesh, VertexStars(mesh));
     const std::vector<Vec3> normals = face_normals(mesh);
     const TriangleTree tree(mesh);
@@ -142,11 +144,12 @@ class ShapeLengths {
         const Triangle& t = mesh.triangles[f];
         if (faces_[f] == t) continue;
         faces_[f] = t;
-        length_[f] = longest_;
+        // What is known of the triangle that this one is a part of bounds the search.
+        length_[f] = std::min(longest_, slack * (known[t[0]] + known[t[1]] + known[t[2]]) / 3);
         if (!(normals[f].squaredNorm() > 0)) continue;
         const Vec3 middle = (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3;
         if (may_be_wall[f])
-          if (const auto wall = find_wall(mesh, tree, middle, normals[f], {.deepest = longest_ / lengths_of_wall}))
+          if (const auto wall = find_wall(mesh, tree, middle, normals[f], {.deepest = length_[f] / lengths_of_wall}))
             length_[f] = std::min(length_[f], lengths_of_wall * wall->thickness);
         length_[f] = std::max(shortest_, length_along(shape, static_cast<std::uint32_t>(f), middle, length_[f]));
       }
@@ -178,7 +181,7 @@ std::vector<double> part_by_shape(SurfaceMesh& mesh, std::vector<FeatureEdge>& c
     halve_long_edges(mesh, length, creases, edges, edges);
     if (round == most_rounds || (round > 0 && mesh.vertices.size() == before)) return length;
     std::sort(creases.begin(), creases.end());
-    shape.renew(mesh, creases);
+    shape.renew(mesh, creases, length);
     length = shape.of_vertices(mesh.vertices.size());
   }
 }
