@@ -324,7 +324,8 @@ PatchOutcome RefinementPatch::improve(const SurfaceMesh& mesh, const std::vector
   if (!goal.for_shape) surroundings.certify(first);
   if (score_of(first, goal) == 0) return {.improved = false, .reached = true};
   Trial now = after_steps(first, surroundings, net, goal);
-  const bool improved = score_of(now, goal) <= least_gain * score_of(first, goal) && holds(first, now, surroundings);
+  const bool no_farther = holds(first, now, surroundings);  // which certifies
+  const bool improved = no_farther && score_of(now, goal) <= least_gain * score_of(first, goal);
   const bool reached = improved && score_of(now, goal) == 0;
   if (improved) take(std::move(now));
   return {.improved = improved, .reached = reached};
