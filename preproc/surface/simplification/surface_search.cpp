@@ -189,7 +189,8 @@ SurfaceSearch::Trial SurfaceSearch::make(const Progress& progress) {
 
 // Where no lattice of the wanted lengths came out: edges as short as the scan's shape needs.
 SurfaceSearch::Trial SurfaceSearch::make_by_shape(const Progress& progress) {
-  Candidate made = make_surface_by_shape(*scan_, sizing_, options_, options_.effort, progress);
+  Candidate made = make_surface_by_shape(*scan_, sizing_, options_, options_.effort,
+                                         shape_budget(sizing_.triangles, true), progress);
   return made.failure.empty() ? judged(std::move(made), progress) : make(progress);
 }
 
