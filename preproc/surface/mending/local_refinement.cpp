@@ -29,8 +29,8 @@ constexpr std::size_t most_vertices_per_face = 6;
 constexpr double reserve = 0.01;
 // Where nothing helps, smaller angles are allowed, so often and by so much each time; then all is tried from the start
 // again, since what has changed around gives other ways, until nothing changes any more.
-constexpr int most_yielding = 3;
-constexpr double yielding_deg = 8;
+constexpr int most_yielding = 2;
+constexpr double yielding_deg = 12;
 
 struct Place {
   std::uint32_t face;  // of the mesh

@@ -41,10 +41,61 @@ Vec3 centroid(const SurfaceMesh& mesh, const Triangle& t) {
 
 // The marked faces, as a surface of their own.
 SurfaceMesh selected(const SurfaceMesh& mesh, const std::vector<bool>& keep, std::vector<std::uint32_t>& vertices) {
-  std::vector<std::uint32_t> faces;
-  for (std::uint32_t f = 0; f < keep.size(); ++f)
-    if (keep[f]) faces.push_back(f);
-  return part_of(mesh, faces, vertices);
+  constexpr std::uint32_t none = ~0U;
+  std::vector<std::uint32_t> place(mesh.vertices.size(), none);
+  SurfaceMesh part;
+  for (std::uint32_t f = 0; f < keep.size(); ++f) {
+    if (!keep[f]) continue;
+    Triangle t = mesh.triangles[f];
+    for (std::uint32_t& v : t) {
+      if (place[v] == none) {
+        place[v] = static_cast<std::uint32_t>(vertices.size());
+        vertices.push_back(v);
+        part.vertices.push_back(mesh.vertices[v]);
+      }
+      v = place[v];
+    }
+    part.triangles.push_back(t);
+  }
+  return part;
+}
+
+// The scan with its triangles cut where they are long, for a mesh of this edge length.
+SurfaceMesh cut_fine(const SurfaceMesh& scan, double edge) {
+  const double longest = longest_scan_edge * edge;
+  const bool is_fine = std::all_of(scan.triangles.begin(), scan.triangles.end(), [&](const Triangle& t) {
+    const Vec3 &a = scan.vertices[t[0]], &b = scan.vertices[t[1]], &c = scan.vertices[t[2]];
+    return std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}) <= longest * longest;
+  });
+  if (is_fine) return scan;
+  return refine_scan(scan, {std::vector<double>(scan.vertices.size(), edge)}, longest_scan_edge, 8).mesh;
+}
+
+// Per face of the scan, the face of the mesh that it belongs to: the nearest, or where that looks the other way, as
+// across a wall, the nearest of those that do not.
+std::vector<std::uint32_t> faces_beneath(const SurfaceMesh& scan, const SurfaceMesh& mesh, double edge) {
+  const MeshAdjacency adjacency(mesh);
+  const std::vector<Vec3> normals = face_normals(mesh), scan_normals = face_normals(scan);
+  const WalkableMesh on{mesh, adjacency.stars, adjacency.neighbours, normals};
+  const TriangleTree tree(mesh);
+  std::vector<std::uint32_t> beneath(scan.triangles.size()), astray;
+  std::vector<Vec3> points, their_normals;
+  std::uint32_t hint = tree.leaf_order().front();
+  for (std::uint32_t f = 0; f < beneath.size(); ++f) {
+    const Vec3 centre = centroid(scan, scan.triangles[f]);
+    beneath[f] = hint = tree.closest(centre, hint).triangle;
+    if (normals[hint].dot(scan_normals[f]) > 0) continue;
+    astray.push_back(f);
+    points.push_back(centre);
+    their_normals.push_back(scan_normals[f]);
+  }
+  if (astray.empty()) return beneath;
+  const std::vector<std::uint32_t> start = nearest_vertices(points, their_normals, mesh, edge);
+  for (std::size_t i = 0; i < astray.size(); ++i) {
+    const std::uint32_t first = adjacency.stars.corners(start[i]).front() / 3;
+    beneath[astray[i]] = descend_to_nearest(on, {points[i], their_normals[i], 0}, first).face;
+  }
+  return beneath;
 }
 
 // Sides of faces by edge, so that the two of one edge are neighbours in the list.
@@ -139,30 +190,17 @@ void Surroundings::cut_scan(const SurfaceMesh& scan, const std::vector<std::uint
   std::vector<std::uint32_t> vertices;
   scan_ = part_of(scan, scan_faces, vertices);
   scan_reference_.emplace(scan_);
-  const SurfaceMesh fine =
-      refine_scan(scan_, {std::vector<double>(scan_.vertices.size(), outline_.edge)}, longest_scan_edge, 8).mesh;
-
-  const SurfaceMesh around = with_frozen(patch);
-  const VertexStars stars(around);
-  const std::vector<Triangle> neighbours = face_neighbours(around, stars);
-  const std::vector<Vec3> normals = face_normals(around);
-  const WalkableMesh on{around, stars, neighbours, normals};
-  std::vector<Vec3> centroids(fine.triangles.size());
-  for (std::size_t f = 0; f < centroids.size(); ++f) centroids[f] = centroid(fine, fine.triangles[f]);
-  const std::vector<Vec3> fine_normals = face_normals(fine);
-  const std::vector<std::uint32_t> start = nearest_vertices(centroids, fine_normals, around, outline_.edge);
-
+  const SurfaceMesh fine = cut_fine(scan_, outline_.edge);
+  const std::vector<std::uint32_t> beneath = faces_beneath(fine, with_frozen(patch), outline_.edge);
   const std::vector<bool> is_free = left_to_patch(fine.vertices, patch);
   std::vector<bool> fits(fine.triangles.size()), answered(fine.triangles.size());
   std::vector<std::uint32_t> near(fine.vertices.size(), 0);
   for (std::size_t f = 0; f < fits.size(); ++f) {
     const Triangle& t = fine.triangles[f];
-    const std::uint32_t first = stars.corners(start[f]).front() / 3;
-    const std::uint32_t face = descend_to_nearest(on, {centroids[f], fine_normals[f], 0}, first).face;
-    fits[f] = face < patch.triangles.size();
+    fits[f] = beneath[f] < patch.triangles.size();
     answered[f] = is_free[t[0]] || is_free[t[1]] || is_free[t[2]];
     if (!fits[f]) continue;
-    for (const std::uint32_t v : t) near[v] = patch.triangles[face][0];
+    for (const std::uint32_t v : t) near[v] = patch.triangles[beneath[f]][0];
   }
   std::vector<std::uint32_t> of_fit, of_answered;
   answered_ = selected(fine, answered, of_answered);
