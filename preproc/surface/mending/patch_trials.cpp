@@ -32,6 +32,9 @@ constexpr double least_dihedral_over_least_angle = 2;
 constexpr double turning_about_line_deg = 5;
 // What samples may show of the limit: bounds are a little larger.
 constexpr double sampled_limit = 0.985;
+// Within this part of the limit of the surface around, vertices of the scan are held by it: what lies between them may
+// be a little farther.
+constexpr double held_within = 0.75;
 // A face is asked at the points of a grid of so many steps a side.
 constexpr int grid = 4;
 
@@ -71,20 +74,21 @@ SurfaceMesh cut_fine(const SurfaceMesh& scan, double edge) {
   return refine_scan(scan, {std::vector<double>(scan.vertices.size(), edge)}, longest_scan_edge, 8).mesh;
 }
 
-// Per face of the scan, the face of the mesh that it belongs to: the nearest, or where that looks the other way, as
+// Per face of the scan, the face of the mesh that it belongs to: the nearest, or where that looks another way, as
 // across a wall, the nearest of those that do not.
 std::vector<std::uint32_t> faces_beneath(const SurfaceMesh& scan, const SurfaceMesh& mesh, double edge) {
   const MeshAdjacency adjacency(mesh);
   const std::vector<Vec3> normals = face_normals(mesh), scan_normals = face_normals(scan);
   const WalkableMesh on{mesh, adjacency.stars, adjacency.neighbours, normals};
   const TriangleTree tree(mesh);
+  constexpr double alike = 0.6;  // cosine of 53 degrees, as where samples are located
   std::vector<std::uint32_t> beneath(scan.triangles.size()), astray;
   std::vector<Vec3> points, their_normals;
   std::uint32_t hint = tree.leaf_order().front();
   for (std::uint32_t f = 0; f < beneath.size(); ++f) {
     const Vec3 centre = centroid(scan, scan.triangles[f]);
     beneath[f] = hint = tree.closest(centre, hint).triangle;
-    if (normals[hint].dot(scan_normals[f]) > 0) continue;
+    if (normals[hint].dot(scan_normals[f]) > alike) continue;
     astray.push_back(f);
     points.push_back(centre);
     their_normals.push_back(scan_normals[f]);
@@ -220,7 +224,7 @@ std::vector<bool> Surroundings::left_to_patch(const std::vector<Vec3>& points, c
   const TriangleTree of_patch(patch), of_frozen(frozen_);
   std::uint32_t hint = of_patch.leaf_order().front();
   for (std::size_t i = 0; i < points.size(); ++i) {
-    left[i] = !of_frozen.closest_within(points[i], goal_.limit);
+    left[i] = !of_frozen.closest_within(points[i], held_within * goal_.limit);
     if (!left[i]) continue;
     const ClosestPoint own = of_patch.closest(points[i], hint);
     hint = own.triangle;

@@ -22,6 +22,8 @@ constexpr int most_steps = 6;
 constexpr double least_gain = 0.88;
 // Fits of a trial, one after the other, each over the goal's fidelity.
 constexpr std::array<double, 2> stiffnesses{0.5, 1};
+// A face a quarter of the limit beyond it: so far off a softer fit may be that a stiffer one brings back.
+constexpr double promising = 0.25 * 0.25 * 0.25 * 0.25;
 // Where trials halve the merit, no dearer ones are made in that step.
 constexpr double good_gain = 0.5;
 
@@ -213,12 +215,14 @@ class Step {
   double score(const Trial& trial) const { return score_of(trial, goal_); }
   bool has_reached() const { return best_ && score(*best_) == 0; }
 
-  // Whether a state is sound and no farther, so that stiffer fits may help it; the best of those that gain is kept.
-  // Where the shape is the goal, a stiffer fit may also bring back what the softer one took away.
+  // Whether a state is sound and not much farther, so that stiffer fits may help it; the best of those that gain is
+  // kept. Where the shape is the goal, a stiffer fit may also bring back what the softer one took away.
   bool may_gain(Trial& trial) {
     if (!surroundings_.keeps_shape(trial, now_)) return false;
-    surroundings_.sample_deviation(trial, now_.merit);
-    if (trial.merit > now_.merit) return goal_.for_shape;
+    const double useful = std::max(now_.merit, promising);
+    surroundings_.sample_deviation(trial, useful);
+    if (trial.merit > useful) return goal_.for_shape;
+    if (trial.merit > now_.merit) return true;
     const auto gains_over = [&](const Trial& other) { return score(trial) <= least_gain * score(other); };
     if (!gains_over(best_ ? *best_ : now_) || !surroundings_.is_clear(trial)) return true;
     if (trial.merit == 0 && !goal_.for_shape) surroundings_.certify(trial);
