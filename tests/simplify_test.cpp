@@ -104,6 +104,8 @@ TEST(Simplify, AsksForNoLessThanTheTopologyNeeds) {
   const SimplifyResult result = simplify_to(mesh, FaceCount{20});
   EXPECT_GT(mesh.triangles.size(), 20U);
   EXPECT_FALSE(result.size_remark.empty());
+  EXPECT_EQ(result.fallback_reason, "");
+  EXPECT_LT(measure_triangles(mesh).edge_ratio.mean, 1.3);
   EXPECT_TRUE(check_validity(mesh).closed());
   EXPECT_EQ(check_validity(mesh).genus, 5);
   EXPECT_TRUE(find_self_intersections(mesh).empty());

@@ -58,8 +58,13 @@ std::array<double, 3> nearest_in_triangle(const Vec3& p, const Vec3& a, const Ve
     const double s = (d4 - d3) / ((d4 - d3) + (d5 - d6));
     return {0, 1 - s, s};
   }
-  clamped = false;
   const double whole = va + vb + vc;
+  if (!(whole > 0)) {  // no area, and rounding found no side that is nearest
+    const double from_a = ap.squaredNorm(), from_b = bp.squaredNorm(), from_c = cp.squaredNorm();
+    if (from_a <= from_b && from_a <= from_c) return {1, 0, 0};
+    return from_b <= from_c ? std::array<double, 3>{0, 1, 0} : std::array<double, 3>{0, 0, 1};
+  }
+  clamped = false;
   return {va / whole, vb / whole, vc / whole};
 }
 

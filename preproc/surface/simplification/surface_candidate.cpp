@@ -343,7 +343,7 @@ Candidate make_surface(const PreparedScanPointer& scan, const SizingOptions& siz
     if (!lost_shape && !is_ill_shaped(candidate)) return candidate;
     Candidate by_shape =
         make_surface_by_shape(*scan, sizing, options, effort, shape_budget(sizing.triangles, lost_shape), progress);
-    if (by_shape.failure.empty() && (failed || is_as_well_shaped(by_shape, candidate))) return by_shape;
+    if (by_shape.failure.empty() && (lost_shape || is_as_well_shaped(by_shape, candidate))) return by_shape;
   }
   if (!failed) return candidate;
   if (scan->has_creases()) candidate = with_fewer_creases(std::move(candidate), sizing, plan, progress);
@@ -360,6 +360,8 @@ Candidate make_surface_by_shape(const PreparedScan& scan, const SizingOptions& s
                                 Effort effort, const ShapeBudget& budget, const Progress& progress) {
   FitPlan plan = plan_of(effort);
   plan.within_deviation = true;  // small faces are held to the scan as large ones are
+  // These lengths can follow the shape: what residual there is comes from a few places, and is no reason to let go.
+  plan.fidelity_of_residual = 2;
   ScanByShape by_shape = prepare_by_shape(scan, sizing, options, budget.triangles);
   Candidate best;
   double best_angle_deg = -1;
@@ -368,7 +370,7 @@ Candidate make_surface_by_shape(const PreparedScan& scan, const SizingOptions& s
     asked.gradation *= 2;
     asked.keeps_count = false;
     ask_for_lengths(by_shape.scan->mesh, by_shape.length, asked);
-    if (trial > 0 && asked.triangles > 1.5 * budget.triangles) break;
+    if (trial > 0 && asked.triangles > 2 * budget.triangles) break;
     Candidate candidate = best_by_lattice(by_shape.scan, asked, plan, progress);
     candidate.lengths_by_shape = by_shape.length;
     double angle_deg = -1;
@@ -385,8 +387,8 @@ Candidate make_surface_by_shape(const PreparedScan& scan, const SizingOptions& s
 }
 
 ShapeBudget shape_budget(double wanted, bool lost_shape) {
-  constexpr double most = 3, few = 8000, few_of_lost = 40000;
-  return {.triangles = std::max(most * wanted, lost_shape ? few_of_lost : few), .trials = lost_shape ? 3 : 1};
+  constexpr double most = 3, few = 40000;
+  return {.triangles = std::max(most * wanted, few), .trials = lost_shape ? 3 : 2};
 }
 
 void lower_worst(Candidate& candidate, Effort effort, const Progress& progress) {
