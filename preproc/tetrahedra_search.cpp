@@ -67,7 +67,7 @@ RenewalResult renew_where_poor(Simplification& search, const SimplifyOptions& si
                                const Progress& progress) {
   RenewalResult result;
   result.min_dihedral_before_deg = result.min_dihedral_after_deg = smallest_dihedral(made);
-  const int most_rounds = simplification.effort == Effort::high ? 6 : 3;
+  const int most_rounds = simplification.effort == Effort::high ? 8 : 4;
   const double most = std::max(most_growth * static_cast<double>(made.surface.triangles.size()), most_of_small);
   FilledSurface latest = made;
   result.made = std::move(made);

@@ -32,9 +32,9 @@ struct RenewalResult {
 };
 
 // `made` came of `search` with these options. A renewed one takes its place where its smallest dihedral angle is larger
-// by a degree, until none is poor or the search gives no other surface. Each round costs a surface and its filling;
-// three at most, and with Effort::high six. At most twice as many triangles, or 12,000. Throws Cancelled. The same
-// result for any number of threads. Not guaranteed: a gain.
+// by a degree, until none is poor or the search gives no other surface. Each round costs a surface, or the mending of
+// its places, and its filling; four at most, and with Effort::high eight. At most twice as many triangles, or 12,000.
+// Throws Cancelled. The same result for any number of threads. Not guaranteed: a gain.
 RenewalResult renew_where_poor(Simplification& search, const SimplifyOptions& simplification,
                                const TetrahedralizeOptions& tetrahedralization, FilledSurface made,
                                const Progress& progress = {});

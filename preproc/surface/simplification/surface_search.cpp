@@ -44,6 +44,8 @@ constexpr double mended_deg = 30;
 
 // With more bad triangles than this the size as a whole is wrong, not places.
 constexpr double share_of_many = 0.1;
+// With more bad places than these another surface costs less than the mending of each.
+constexpr std::size_t few_places = 10;
 
 // Wanted with fewer triangles than this, a part without its edges stands for nothing any more: edges go before angles.
 constexpr double few_triangles_of_part = 1000;
@@ -54,7 +56,7 @@ constexpr double few_beyond = 0.06, most_beyond = 0.15;
 
 // Where triangles as large as the deviation allows are too large for the part's edges, smaller ones keep their shape.
 // The bound is where isotropic remeshing with kept edges ends (CGAL: 1.18 to 1.21 on plates, cubes and cylinders).
-constexpr double worst_mean_edge_ratio = 1.19;
+constexpr double worst_mean_edge_ratio = 1.18;
 
 // Around bad places edge lengths may grow this many times as fast as elsewhere: at the surface's own gradation a few
 // short edges would drag those of a whole neighbourhood along.
@@ -138,16 +140,23 @@ Candidate SurfaceSearch::run(const Progress& progress) {
                                 count(static_cast<double>(best.candidate.faces())) + " triangles",
                        .limit = std::to_string(wanted_.deviation->distance),
                        .advice = "a larger --deviation, or --faces"});
-  return std::move(best.candidate);
+  last_ = std::move(best);
+  return last_.candidate;
 }
 
 std::optional<Candidate> SurfaceSearch::run_again(std::span<const ShorterEdges> places, double most_triangles,
                                                   const Progress& progress) {
+  if (places.size() <= few_places && !is_mended_for_user_ && last_.candidate.method == SimplifyMethod::lattice) {
+    is_mended_for_user_ = true;
+    if (mend_in_place(last_, places, MendFor::size, progress)) return last_.candidate;
+  }
+  is_mended_for_user_ = false;
   if (length_.empty()) length_ = scan_->wanted_lengths(sizing_);
   shorten_around(places, scan_->mesh, length_);
   if (!ask_for_lower_lengths(most_triangles)) return {};
   try {
-    return make(progress).candidate;
+    last_ = make(progress);
+    return last_.candidate;
   } catch (const NotMeshable&) {
     return {};
   }
@@ -205,6 +214,7 @@ SurfaceSearch::Trial SurfaceSearch::judged(Candidate candidate, const Progress& 
     judge_deviation(made, progress);
   else if (made.candidate.method == SimplifyMethod::lattice)
     lower_worst(made.candidate, options_.effort, progress);
+  open_wedges_within(made);
   mend_shape(made, progress);
   made.mean_edge_ratio = measure_triangles(made.candidate.mesh).edge_ratio.mean;
   const bool few = made.candidate.faces() < many_triangles && options_.for_tetrahedra && !wanted_.deviation;
@@ -264,29 +274,45 @@ void SurfaceSearch::bring_within(Trial& made, const Progress& progress) const {
   }
 }
 
-// Bad triangles, folds and wedges are mended where they are, unless there are so many that the size is wrong. A
-// deviation that was asked for comes first.
+// A deviation that was asked for comes before the tetrahedra.
+void SurfaceSearch::open_wedges_within(Trial& made) const {
+  Trial opened = made;
+  if (!open_wedges(opened.candidate, options_)) return;
+  if (wanted_.deviation)
+    note_deviation(opened, bound_deviation(opened.candidate.mesh, opened.candidate.scan->deviation_reference(),
+                                           {.limit = wanted_.deviation->distance}));
+  if (!holds(made) || holds(opened) || !wanted_.deviation->required) made = std::move(opened);
+}
+
+// Few bad triangles, folds and wedges are mended where they are.
 void SurfaceSearch::mend_shape(Trial& made, const Progress& progress) const {
-  made.shape = find_shape_defects(made.candidate, {.least_angle_deg = mended_deg, .walls = options_.for_tetrahedra});
-  if (made.shape.bad.empty() || made.has_many_bad() || made.candidate.method != SimplifyMethod::lattice) return;
+  const ShapeLimits limits{.least_angle_deg = mended_deg, .walls = options_.for_tetrahedra};
+  made.shape = find_shape_defects(made.candidate, limits);
+  const std::size_t bad = made.shape.bad.size();
+  if (bad == 0 || bad > few_places || made.candidate.method != SimplifyMethod::lattice) return;
+  if (mend_in_place(made, made.shape.bad, MendFor::shape, progress))
+    made.shape = find_shape_defects(made.candidate, limits);
+}
+
+// A deviation that was asked for comes first. Whether some place was mended.
+bool SurfaceSearch::mend_in_place(Trial& made, std::span<const ShorterEdges> places, MendFor reason,
+                                  const Progress& progress) const {
   const PreparedScan& scan = *made.candidate.scan;
-  Candidate mended = made.candidate;
+  Trial mended = made;
+  SurfaceMesh& mesh = mended.candidate.mesh;
   MendPlacesOptions options;
+  options.reason = reason;
   options.limit = wanted_.deviation ? wanted_.deviation->distance : made.candidate.fit.largest_distance;
   options.least_angle_deg = mended_deg;
-  const MendPlacesResult result = mend_places(mended.mesh, mended.net, scan.reference(),
-                                              scan.deviation_reference().tree(), made.shape.bad, options, progress);
-  if (result.mended == 0) return;
-  if (scan.is_closed())
-    preserve_volume_clear(mended.mesh, scan.mesh, held_lines(mended.net, mended.mesh.vertices.size()));
-  Trial after = made;
-  after.candidate = std::move(mended);
+  const MendPlacesResult result = mend_places(mesh, mended.candidate.net, scan.reference(),
+                                              scan.deviation_reference().tree(), places, options, progress);
+  if (result.mended == 0) return false;
+  if (scan.is_closed()) preserve_volume_clear(mesh, scan.mesh, held_lines(mended.candidate.net, mesh.vertices.size()));
   if (wanted_.deviation)
-    note_deviation(after, bound_deviation(after.candidate.mesh, scan.deviation_reference(),
-                                          {.limit = wanted_.deviation->distance}));
-  if (holds(made) && !holds(after)) return;
-  made = std::move(after);
-  made.shape = find_shape_defects(made.candidate, {.least_angle_deg = mended_deg, .walls = options_.for_tetrahedra});
+    note_deviation(mended, bound_deviation(mesh, scan.deviation_reference(), {.limit = wanted_.deviation->distance}));
+  if (holds(made) && !holds(mended)) return false;
+  made = std::move(mended);
+  return true;
 }
 
 bool SurfaceSearch::holds(const Trial& made) const {

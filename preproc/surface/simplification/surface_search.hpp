@@ -7,6 +7,7 @@
 // without a gain, and of work, which is counted in triangles made, so that the result does not depend on the machine.
 #pragma once
 
+#include "preproc/surface/mending/mend_places.hpp"
 #include "preproc/surface/simplification/shape_check.hpp"
 #include "preproc/surface/simplification/surface_candidate.hpp"
 #include "preproc/surface/sizing/shorter_edges.hpp"
@@ -39,8 +40,8 @@ class SurfaceSearch {
   // and NotMeshable where a deviation is required and was not reached.
   Candidate run(const Progress& progress);
 
-  // One more, with shorter edges at these places; none where the budget is spent or there is no such surface. At most
-  // `most_triangles`. To be called after `run`.
+  // One more, with shorter edges at these places: by turns the last one mended there, and a whole new one. None where
+  // the budget is spent or there is no such surface. At most `most_triangles`. To be called after `run`.
   std::optional<Candidate> run_again(std::span<const ShorterEdges> places, double most_triangles,
                                      const Progress& progress);
 
@@ -51,7 +52,7 @@ class SurfaceSearch {
  private:
   // A surface, and what the judges say of it.
   struct Trial {
-    Candidate candidate;
+    Candidate candidate = {};
     ShapeDefects shape = {};
     double mean_edge_ratio = 1;
     double share_beyond = 0;             // of the faces, farther from the scan than wanted, before places were mended
@@ -71,7 +72,9 @@ class SurfaceSearch {
   void judge_deviation(Trial& made, const Progress& progress) const;
   void note_deviation(Trial& made, const DeviationBound& bound) const;
   void bring_within(Trial& made, const Progress& progress) const;
+  void open_wedges_within(Trial& made) const;
   void mend_shape(Trial& made, const Progress& progress) const;
+  bool mend_in_place(Trial& made, std::span<const ShorterEdges> places, MendFor reason, const Progress& progress) const;
   bool holds(const Trial& made) const;
   bool is_shapely(const Trial& made) const;
   bool is_accepted(const Trial& made) const;
@@ -89,7 +92,9 @@ class SurfaceSearch {
   SizingOptions sizing_;
   std::vector<double> error_factors_;
   std::vector<double> length_;  // per vertex of the scan, as asked for last; empty before something was lowered
-  double work_ = 0;             // triangles made
+  Trial last_;                  // given
+  bool is_mended_for_user_ = false;
+  double work_ = 0;  // triangles made
   double first_work_ = 0;
   std::string size_remark_;
 };
