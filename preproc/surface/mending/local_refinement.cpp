@@ -180,6 +180,29 @@ struct Changes {
   std::vector<std::uint32_t> scan_faces;  // in the boxes of the patches
 };
 
+// Faces around which nothing helped, and nothing has changed since: to try the same again would be in vain.
+class Hopeless {
+ public:
+  bool holds(std::uint32_t face) const { return face < is_hopeless_.size() && is_hopeless_[face]; }
+  void clear() { is_hopeless_.clear(); }
+
+  void mark(const SurfaceMesh& mesh, const std::vector<Place>& places) {
+    is_hopeless_.resize(mesh.triangles.size(), false);
+    const VertexStars stars(mesh);
+    for (const Place& place : places)
+      for (const std::uint32_t v : mesh.triangles[place.face])
+        for (const std::uint32_t corner : stars.corners(v)) is_hopeless_[corner / 3] = true;
+  }
+
+  void unmark(const std::vector<std::uint32_t>& faces) {
+    for (const std::uint32_t f : faces)
+      if (f < is_hopeless_.size()) is_hopeless_[f] = false;
+  }
+
+ private:
+  std::vector<bool> is_hopeless_;
+};
+
 // Mends places that are apart from each other at once, until each has had its turn or lay within the patch of another,
 // which then stood for it. Returns those whose patches are still too far.
 std::vector<Place> mend(SurfaceMesh& mesh, BoxesOfSurface& boxes, FeatureNet& net, const ReferenceSurface& scan,
@@ -232,18 +255,22 @@ std::vector<Place> mend(SurfaceMesh& mesh, BoxesOfSurface& boxes, FeatureNet& ne
 }
 
 Changes refine_places(SurfaceMesh& mesh, FeatureNet& net, const ReferenceSurface& scan, const TriangleTree* scan_tree,
-                      const std::vector<double>& deviation, const LocalRefinementOptions& options) {
+                      const std::vector<double>& deviation, const LocalRefinementOptions& options, Hopeless& hopeless) {
   PatchGoal goal;
   goal.limit = goal_limit(options);
+  goal.allowed = options.limit;
   goal.fidelity = options.fidelity_of_diagonal * scan.diagonal;
   goal.least_angle_deg = options.least_angle_deg;
-  std::vector<Place> places = places_beyond(deviation, goal.limit);
+  std::vector<Place> places = places_beyond(deviation, options.limit);
+  std::erase_if(places, [&](const Place& place) { return hopeless.holds(place.face); });
   Changes result;
   BoxesOfSurface boxes(mesh);
   for (int rings = fewest_rings; rings <= most_rings && !places.empty(); ++rings) {
     goal.may_place = rings == most_rings;
     places = mend(mesh, boxes, net, scan, scan_tree, std::move(places), rings, goal, options, result);
   }
+  hopeless.unmark(result.changed);
+  hopeless.mark(mesh, places);
   return result;
 }
 
@@ -315,7 +342,8 @@ LocalRefinementResult refine_worst(SurfaceMesh& mesh, const ReferenceSurface& sc
     used.limit = std::max(used.limit, *next);
   }
   FeatureNet none;
-  return refine_places(mesh, none, scan, nullptr, deviation, used).counts;
+  Hopeless hopeless;
+  return refine_places(mesh, none, scan, nullptr, deviation, used, hopeless).counts;
 }
 
 BoundedRefinementResult refine_within(SurfaceMesh& mesh, const ReferenceSurface& scan,
@@ -332,6 +360,7 @@ BoundedRefinementResult refine_within(SurfaceMesh& mesh, FeatureNet& net, const 
   KnownDeviation known(mesh, reference, goal_limit(options));
   LocalRefinementOptions left = options;
   BoundedRefinementResult result;
+  Hopeless hopeless;
   int yielded = 0;
   bool changed = false;
   for (int round = 0;; ++round) {
@@ -341,7 +370,7 @@ BoundedRefinementResult refine_within(SurfaceMesh& mesh, FeatureNet& net, const 
     std::vector<double> deviation = known.of_mesh();
     attribute(known.far_points(scan), mesh, scan.mean_edge(mesh.triangles.size()), deviation);
     left.most_vertices = options.most_vertices - std::min(options.most_vertices, result.changes.inserted);
-    const Changes changes = refine_places(mesh, net, scan, &known.scan_tree(), deviation, left);
+    const Changes changes = refine_places(mesh, net, scan, &known.scan_tree(), deviation, left, hopeless);
     result.changes.patches += changes.counts.patches;
     result.changes.inserted += changes.counts.inserted;
     changed = changed || changes.counts.patches > 0;
@@ -352,6 +381,7 @@ BoundedRefinementResult refine_within(SurfaceMesh& mesh, FeatureNet& net, const 
     if (yielded == most_yielding && !changed) break;
     if (yielded == most_yielding) changed = false;
     yielded = (yielded + 1) % (most_yielding + 1);
+    hopeless.clear();
     left.least_angle_deg = std::max(0.0, options.least_angle_deg - yielded * yielding_deg);
     left.fidelity_of_diagonal = options.fidelity_of_diagonal / std::pow(2, yielded);
   }

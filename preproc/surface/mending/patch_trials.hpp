@@ -14,7 +14,8 @@
 namespace scan2fea {
 
 struct PatchGoal {
-  double limit = 0;               // largest deviation, two-sided, model units
+  double limit = 0;               // largest deviation, two-sided, model units, that is worked towards
+  double allowed = 0;             // and that does, at least the limit
   double fidelity = 0;            // residual that costs as much as F(eta) = 1 (see shape_fit.hpp), model units
   double least_angle_deg = 35;    // smaller angles are not made, nor made smaller
   std::size_t most_vertices = 0;  // that may be inserted

@@ -330,7 +330,8 @@ PatchOutcome RefinementPatch::improve(const SurfaceMesh& mesh, const std::vector
   Trial now = after_steps(first, surroundings, net, goal);
   const bool no_farther = holds(first, now, surroundings);  // which certifies
   const bool improved = no_farther && score_of(now, goal) <= least_gain * score_of(first, goal);
-  const bool reached = improved && score_of(now, goal) == 0;
+  const Trial& last = improved ? now : first;
+  const bool reached = goal.for_shape ? last.lack == 0 : last.deviation[last.worst] <= goal.allowed;
   if (improved) take(std::move(now));
   return {.improved = improved, .reached = reached};
 }
