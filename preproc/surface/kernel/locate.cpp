@@ -25,6 +25,11 @@ double badness(const WalkableMesh& on, const Sample& sample, std::uint32_t f, Lo
   return squared_distance + disagreement * (b - a).cross(c - a).norm() / 2;
 }
 
+// How far the way from one end of a side to the other goes: none where both ends are one point.
+double share(double from_one, double from_other) {
+  return from_one > 0 ? from_one / (from_one - from_other) : 0;
+}
+
 }  // namespace
 
 std::array<double, 3> nearest_in_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c, bool& clamped) {
@@ -41,7 +46,7 @@ std::array<double, 3> nearest_in_triangle(const Vec3& p, const Vec3& a, const Ve
   if (d3 >= 0 && d4 <= d3) return {0, 1, 0};
   const double vc = d1 * d4 - d3 * d2;
   if (vc <= 0 && d1 >= 0 && d3 <= 0) {
-    const double s = d1 / (d1 - d3);
+    const double s = share(d1, d3);
     return {1 - s, s, 0};
   }
   const Vec3 cp = p - c;
@@ -50,12 +55,12 @@ std::array<double, 3> nearest_in_triangle(const Vec3& p, const Vec3& a, const Ve
   if (d6 >= 0 && d5 <= d6) return {0, 0, 1};
   const double vb = d5 * d2 - d1 * d6;
   if (vb <= 0 && d2 >= 0 && d6 <= 0) {
-    const double s = d2 / (d2 - d6);
+    const double s = share(d2, d6);
     return {1 - s, 0, s};
   }
   const double va = d3 * d6 - d5 * d4;
   if (va <= 0 && d4 >= d3 && d5 >= d6) {
-    const double s = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+    const double s = share(d4 - d3, d6 - d5);
     return {0, 1 - s, s};
   }
   const double whole = va + vb + vc;
