@@ -312,8 +312,8 @@ SurfaceMesh board(const std::vector<std::string>& rows, double letter, double th
 SurfaceMesh near_flush_ribs(double off) {
   SurfaceMesh mesh = box({0, 0, 0}, {100, 60, 4});
   add(mesh, box({10, 5, 2}, {14, 55, 20}));
-  add(mesh, box({10 + off, 20, 1}, {60, 24, 20 + off}));
-  add(mesh, box({56, 20 + off, 3}, {60 + off, 50, 20 - off}));
+  add(mesh, box({14 - off, 20, 1}, {60, 24, 16}));
+  add(mesh, box({56, 24 - off, 3}, {59, 50, 12}));
   return mesh;
 }
 
@@ -322,13 +322,8 @@ SurfaceMesh near_flush_posts(double off) {
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 4; ++j) {
       const double x = 20.0 * i, y = 20.0 * j, d = off * (1 + i + 4 * j);
-      const bool corner = (i == 0 || i == 3) && (j == 0 || j == 3);
-      if (corner) {
-        add(mesh, box({i == 0 ? d : 60, j == 0 ? d : 60, 5}, {i == 0 ? 20 : 80 - d, j == 0 ? 20 : 80 - d, 30}));
-      } else {
-        add(mesh, box({x + 6, y + 6, 5}, {x + 14, y + 14, 25}));
-        add(mesh, box({x + 14 - d, y + 6 + d, 5}, {x + 18, y + 14 + d, 22}));
-      }
+      add(mesh, box({x + 6, y + 6, 5}, {x + 14, y + 14, 25}));
+      add(mesh, box({x + 14 - d, y + 7, 5}, {x + 18, y + 13, 22}));
     }
   return mesh;
 }

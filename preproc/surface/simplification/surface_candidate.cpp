@@ -324,6 +324,21 @@ void refuse_failed(const Candidate& candidate, double triangles) {
                        .advice = "more triangles (--faces, or a smaller --edge-length or --deviation)"});
 }
 
+// Contractions may end in triangles that no mesher takes.
+void refuse_needles(const Candidate& candidate, double triangles) {
+  constexpr double least_angle_deg_of_mesh = 0.5;
+  std::vector<Vec3> needles;
+  const double angle_deg = smallest_angle_beside_creases_deg(candidate, least_angle_deg_of_mesh, needles);
+  if (needles.empty()) return;
+  const Vec3& at = needles.back();  // the sharpest
+  throw NotMeshable({.what = "no sound surface of " + std::to_string(std::lround(triangles)) +
+                             " triangles: " + candidate.fallback_reason,
+                     .where = std::to_string(at.x()) + " " + std::to_string(at.y()) + " " + std::to_string(at.z()),
+                     .value = "an angle of " + std::to_string(angle_deg) + " degrees",
+                     .limit = std::to_string(least_angle_deg_of_mesh),
+                     .advice = "more triangles (--faces, or a smaller --edge-length or --deviation)"});
+}
+
 }  // namespace
 
 Candidate make_surface(const PreparedScanPointer& scan, const SizingOptions& sizing, const SimplifyOptions& options,
@@ -351,6 +366,8 @@ Candidate make_surface(const PreparedScanPointer& scan, const SizingOptions& siz
     std::string reason = std::move(candidate.failure);
     candidate = by_contraction(candidate.scan, sizing, plan, progress);
     candidate.fallback_reason = std::move(reason);
+    // The search for a deviation has other lengths to try.
+    if (!plan.within_deviation) refuse_needles(candidate, sizing.triangles);
   }
   refuse_failed(candidate, sizing.triangles);
   return candidate;
