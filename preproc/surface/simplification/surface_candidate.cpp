@@ -342,7 +342,7 @@ void refuse_needles(const Candidate& candidate, double triangles) {
 }  // namespace
 
 Candidate make_surface(const PreparedScanPointer& scan, const SizingOptions& sizing, const SimplifyOptions& options,
-                       Effort effort, const Progress& progress) {
+                       Effort effort, bool may_go_by_shape, const Progress& progress) {
   FitPlan plan = plan_of(effort);
   plan.within_deviation = std::holds_alternative<LargestDeviation>(options.size);
   if (options.method == SimplifyMethod::collapse) {
@@ -353,7 +353,7 @@ Candidate make_surface(const PreparedScanPointer& scan, const SizingOptions& siz
   Candidate candidate = best_by_lattice(scan, sizing, plan, progress);
   const bool failed = !candidate.failure.empty();
   // A deviation asks for shorter edges itself.
-  if (!plan.within_deviation && is_part(scan->given)) {
+  if (may_go_by_shape && !plan.within_deviation && is_part(scan->given)) {
     const bool lost_shape = failed || is_far(candidate);
     if (!lost_shape && !is_ill_shaped(candidate)) return candidate;
     Candidate by_shape =

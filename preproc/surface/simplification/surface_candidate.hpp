@@ -36,11 +36,11 @@ struct Candidate {
 };
 
 // By the method asked for or, where the lattice fails, by contraction. A part that does not keep its shape with the
-// wanted number of triangles gets more (make_surface_by_shape), unless a deviation is asked for. Where triangles of
-// this size are too large for the scan's creases, the candidate's scan has those that could be kept. Exact volume, and
-// nothing that crosses itself. Throws NotMeshable where no way is left.
+// wanted number of triangles gets more (make_surface_by_shape) where it may, unless a deviation is asked for. Where
+// triangles of this size are too large for the scan's creases, the candidate's scan has those that could be kept. Exact
+// volume, and nothing that crosses itself. Throws NotMeshable where no way is left.
 Candidate make_surface(const PreparedScanPointer& scan, const SizingOptions& sizing, const SimplifyOptions& options,
-                       Effort effort, const Progress& progress);
+                       Effort effort, bool may_go_by_shape, const Progress& progress);
 
 // What a part's shape may take: triangles, about, and lattices. Three times the wanted triangles, or what costs little;
 // more where the part would be lost.

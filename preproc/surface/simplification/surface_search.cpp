@@ -21,7 +21,7 @@ namespace {
 // Of triangles, over those of the first surface, that all together may be made.
 constexpr double most_work = 5;
 // A small part may cost so many whatever the first surface had: they cost nothing.
-constexpr double work_for_small = 30000;
+constexpr double work_for_small = 50000;
 
 // In one surface, over those that were wanted. A small part may have 8,000, but not more than forty times as many: who
 // asks for 20 does not want 8,000.
@@ -173,7 +173,7 @@ void SurfaceSearch::set_first_sizing(const Progress& progress) {
   if (options_.sizing == Sizing::error) {
     // A quick first surface shows where edges of the curvature's lengths come too far from the scan.
     sizing_.sizing = Sizing::curvature;
-    const Candidate first = make_surface(scan_, sizing_, options_, Effort::low, progress);
+    const Candidate first = make_surface(scan_, sizing_, options_, Effort::low, true, progress);
     if (first.lengths_by_shape.empty()) {
       scan_ = first.scan;  // creases that it could not keep are not asked for again
       error_factors_ = scan_->by_vertex(error_factors(first.mesh, scan_->reference(), error_renewal),
@@ -193,7 +193,8 @@ void SurfaceSearch::set_first_sizing(const Progress& progress) {
 }
 
 SurfaceSearch::Trial SurfaceSearch::make(const Progress& progress) {
-  return judged(make_surface(scan_, sizing_, options_, options_.effort, progress), progress);
+  const bool is_first = work_ == 0;  // what the shape needs does not change from one surface to the next
+  return judged(make_surface(scan_, sizing_, options_, options_.effort, is_first, progress), progress);
 }
 
 // Where no lattice of the wanted lengths came out: edges as short as the scan's shape needs.
