@@ -18,9 +18,9 @@
 namespace scan2fea {
 namespace {
 
-// Of triangles, over those of the first surface, that all together may be made.
+// Of triangles that all together may be made, over those that were wanted, or those of the first surface.
 constexpr double most_work = 5;
-// A small part may cost so many whatever the first surface had: they cost nothing.
+// A small part may cost so many whatever was wanted: they cost nothing.
 constexpr double work_for_small = 50000;
 
 // In one surface, over those that were wanted. A small part may have 8,000, but not more than forty times as many: who
@@ -389,8 +389,9 @@ bool SurfaceSearch::ask_for_lower_lengths(double most_triangles) {
   } else if (sizing_.triangles < room_for_places * wanted_.triangles) {
     sizing_.triangles = wanted_.triangles;  // a few places cost the others little
   }
+  const double first_work = wanted_.deviation ? first_work_ : wanted_.triangles;
   return sizing_.triangles <= most_triangles &&
-         (first_work_ == 0 || work_ + sizing_.triangles <= std::max(most_work * first_work_, work_for_small));
+         (work_ == 0 || work_ + sizing_.triangles <= std::max(most_work * first_work, work_for_small));
 }
 
 double SurfaceSearch::most_triangles() const {
