@@ -1,9 +1,11 @@
 #include "quality/validity.hpp"
 
+#include "preproc/mesh/face_neighbours.hpp"
 #include "preproc/mesh/union_find.hpp"
 
 #include <algorithm>
 #include <numeric>
+#include <span>
 #include <vector>
 
 namespace scan2fea {
@@ -59,9 +61,69 @@ SidesByVertex sort_sides(const SurfaceMesh& mesh) {
   return sorted;
 }
 
+// Whether a walk around the vertex from face to face comes past all of its faces. `neighbours` are mutual, and each
+// face has three.
+bool is_one_fan(const SurfaceMesh& mesh, const VertexStars& stars, const std::vector<Triangle>& neighbours,
+                std::uint32_t vertex) {
+  const std::span<const std::uint32_t> star = stars.corners(vertex);
+  if (star.empty()) return true;
+  std::size_t passed = 0;
+  std::uint32_t f = star.front() / 3;
+  do {
+    const Triangle& t = mesh.triangles[f];
+    const std::size_t k = t[0] == vertex ? 0 : t[1] == vertex ? 1 : 2;
+    f = neighbours[f][(k + 1) % 3];  // across the edge that arrives at the vertex
+    ++passed;
+  } while (f != star.front() / 3);
+  return passed == star.size();
+}
+
+std::size_t count_components(const std::vector<Triangle>& neighbours) {
+  std::vector<bool> reached(neighbours.size(), false);
+  std::vector<std::uint32_t> stack;
+  std::size_t components = 0;
+  for (std::uint32_t seed = 0; seed < neighbours.size(); ++seed) {
+    if (reached[seed]) continue;
+    ++components;
+    reached[seed] = true;
+    for (stack.push_back(seed); !stack.empty();) {
+      const std::uint32_t f = stack.back();
+      stack.pop_back();
+      for (const std::uint32_t g : neighbours[f]) {
+        if (reached[g]) continue;
+        reached[g] = true;
+        stack.push_back(g);
+      }
+    }
+  }
+  return components;
+}
+
+// What there is to say about a closed and oriented manifold; nothing where the surface is none. Most are, and this
+// takes a third of the time that sets of faces and of corners do.
+std::optional<SurfaceValidity> validity_of_closed(const SurfaceMesh& mesh) {
+  if (std::any_of(mesh.triangles.begin(), mesh.triangles.end(), is_degenerate)) return {};
+  const VertexStars stars(mesh);
+  const std::vector<Triangle> neighbours = face_neighbours(mesh, stars);
+  for (const Triangle& across : neighbours)
+    if (std::find(across.begin(), across.end(), no_face) != across.end()) return {};
+  SurfaceValidity validity;
+  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
+    validity.unused_vertices += stars.corners(v).empty();
+    if (!is_one_fan(mesh, stars, neighbours, v)) return {};
+  }
+  validity.components = count_components(neighbours);
+  const auto faces = static_cast<long>(mesh.triangles.size());
+  const auto vertices = static_cast<long>(mesh.vertices.size() - validity.unused_vertices);
+  const long euler = vertices - 3 * faces / 2 + faces;  // 2 * components - 2 * genus
+  validity.genus = static_cast<int>(static_cast<long>(validity.components) - euler / 2);
+  return validity;
+}
+
 }  // namespace
 
 SurfaceValidity check_validity(const SurfaceMesh& mesh) {
+  if (const std::optional<SurfaceValidity> closed = validity_of_closed(mesh)) return *closed;
   SurfaceValidity validity;
   UnionFind faces(mesh.triangles.size());
   UnionFind corners(3 * mesh.triangles.size());  // joined where two faces share an edge at the corner

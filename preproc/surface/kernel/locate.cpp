@@ -30,6 +30,22 @@ double share(double from_one, double from_other) {
   return from_one > 0 ? from_one / (from_one - from_other) : 0;
 }
 
+// The latest faces that were added, and mostly all of them.
+class TriedFaces {
+ public:
+  // Whether it is not known to be there already.
+  bool add(std::uint32_t face) {
+    const auto end = faces_.begin() + static_cast<std::ptrdiff_t>(std::min(count_, faces_.size()));
+    if (std::find(faces_.begin(), end, face) != end) return false;
+    faces_[count_++ % faces_.size()] = face;
+    return true;
+  }
+
+ private:
+  std::array<std::uint32_t, 32> faces_;  // two rings of a triangle
+  std::size_t count_ = 0;
+};
+
 }  // namespace
 
 std::array<double, 3> nearest_in_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c, bool& clamped) {
@@ -76,11 +92,16 @@ std::array<double, 3> nearest_in_triangle(const Vec3& p, const Vec3& a, const Ve
 Location descend_to_nearest(const WalkableMesh& on, const Sample& sample, std::uint32_t start) {
   Location best;
   double least = badness(on, sample, start, best);
+  // The rings of two corners share faces, and those of two steps most of theirs. None that was tried can be better than
+  // the best by now.
+  TriedFaces tried;
+  tried.add(start);
   for (bool improved = true; improved;) {
     improved = false;
     const Triangle& t = on.mesh.triangles[best.face];
     for (const std::uint32_t v : Triangle(t)) {
       for (const std::uint32_t corner : on.stars.corners(v)) {
+        if (!tried.add(corner / 3)) continue;
         Location at;
         const double bad = badness(on, sample, corner / 3, at);
         if (bad < least) {

@@ -98,8 +98,9 @@ void mark_non_manifold(const SurfaceMesh& mesh, FaceMarks& marks) {
 IntersectionRemoval remove_intersections(SurfaceMesh& mesh, RepairResult& result, const Progress& progress) {
   std::vector<FacePair> pairs = find_self_intersections(mesh);
   result.intersecting_pairs = pairs.size();
-  const bool closed = pairs.empty() || Borders(mesh).empty();
-  if (!pairs.empty() && closed && unite_shells(mesh, pairs, result)) pairs = find_self_intersections(mesh);
+  if (pairs.empty()) return {};
+  const bool closed = Borders(mesh).empty();
+  if (closed && unite_shells(mesh, pairs, result)) pairs = find_self_intersections(mesh);
   if (!pairs.empty() && part_touching_vertices(mesh, pairs, result)) pairs = find_self_intersections(mesh);
   if (!pairs.empty()) pairs = smooth_folds(mesh, std::move(pairs), result);
 

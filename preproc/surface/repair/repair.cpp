@@ -87,7 +87,7 @@ RepairResult repair(SurfaceMesh& mesh, const RepairOptions& options, const Progr
     clean_soup(mesh, result);
     make_manifold(mesh, result);
   }
-  drop_specks(mesh, options, result);
+  if (!sound || validity.components > 1) drop_specks(mesh, options, result);
   if (!sound && !keep_holes) {
     close_holes(mesh, {options.largest_hole_of_diagonal, options.fragment_of_area}, result, progress);
     make_manifold(mesh, result);
