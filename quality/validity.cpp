@@ -1,6 +1,7 @@
 #include "quality/validity.hpp"
 
 #include "preproc/mesh/face_neighbours.hpp"
+#include "preproc/mesh/splitmix64.hpp"
 #include "preproc/mesh/union_find.hpp"
 
 #include <algorithm>
@@ -171,6 +172,19 @@ SurfaceValidity check_validity(const SurfaceMesh& mesh) {
     validity.genus = static_cast<int>(static_cast<long>(validity.components) - euler / 2);
   }
   return validity;
+}
+
+bool encloses_volume(const SurfaceMesh& mesh) {
+  std::uint64_t sum = 0;  // modulo 2^64
+  for (const Triangle& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint64_t from = t[k], to = t[(k + 1) % 3];
+      if (from < to)
+        sum += splitmix64(from << 32U | to);
+      else if (to < from)
+        sum -= splitmix64(to << 32U | from);
+    }
+  return sum == 0;
 }
 
 }  // namespace scan2fea

@@ -35,4 +35,8 @@ struct SurfaceValidity {
 // zero of everything and genus 0.
 SurfaceValidity check_validity(const SurfaceMesh& mesh);
 
+// The same as check_validity(mesh).encloses_volume(), for the price of reading the faces once: edges are not sorted but
+// hashed, and those that cancel leave a sum of 0. Others do by a chance of 2^-64.
+bool encloses_volume(const SurfaceMesh& mesh);
+
 }  // namespace scan2fea

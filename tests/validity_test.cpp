@@ -121,6 +121,17 @@ TEST(Validity, AMoebiusStripCannotBeOriented) {
   EXPECT_FALSE(check_validity(strip).oriented());
 }
 
+TEST(Validity, WhetherAVolumeIsEnclosedNeedsNoSortedEdges) {
+  SurfaceMesh open = analytic::sphere(1, 3), turned = open, doubled = open, repeated = open;
+  open.triangles.pop_back();
+  std::swap(turned.triangles[5][0], turned.triangles[5][1]);
+  doubled.triangles.push_back(doubled.triangles.front());
+  repeated.triangles.push_back({0, 0, 1});
+  for (const SurfaceMesh& mesh : {analytic::torus(3, 1, 20, 10), two_tetrahedra_sharing(1), two_tetrahedra_sharing(2),
+                                  open, turned, doubled, repeated, SurfaceMesh()})
+    EXPECT_EQ(encloses_volume(mesh), check_validity(mesh).encloses_volume());
+}
+
 TEST(Validity, NothingHasNoComponents) {
   const SurfaceValidity validity = check_validity({});
   EXPECT_EQ(validity.components, 0U);

@@ -127,7 +127,7 @@ double shift_to_volume(SurfaceMesh& mesh, const std::vector<std::uint32_t>& face
 
 VolumeShift preserve_volume(SurfaceMesh& mesh, const SurfaceMesh& like, const VertexConstraints& constraints) {
   if (mesh.triangles.empty() || like.triangles.empty()) return {};
-  if (!check_validity(mesh).encloses_volume() || !check_validity(like).encloses_volume()) {
+  if (!encloses_volume(mesh) || !encloses_volume(like)) {
     throw NotMeshable({.what = "no volume to keep",
                        .where = "",
                        .value = "an open surface",
