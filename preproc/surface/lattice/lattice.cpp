@@ -7,11 +7,13 @@
 #include "preproc/surface/lattice/anchored_scan.hpp"
 #include "preproc/surface/lattice/extract_lattice.hpp"
 #include "preproc/surface/lattice/field_graph.hpp"
+#include "preproc/surface/lattice/thin_scan.hpp"
 #include "preproc/surface/sizing/split_long_edges.hpp"
 #include "quality/triangle_measures.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace scan2fea {
 namespace {
@@ -25,6 +27,10 @@ constexpr double surplus_with_features = 1.02;
 constexpr double largest_miscount = 0.03;
 constexpr int attempts = 3;
 constexpr double tolerance = 0.005;  // of the number of triangles
+// Vertices of the scan for one of the result, above which it is thinned to `enough_nodes`. A lattice on so many fewer
+// is as good, and the fit that follows sees the whole scan. Not from 16: there the thinned one has a mean edge ratio of
+// 1.041 instead of 1.034.
+constexpr double many_nodes = 32, enough_nodes = 8;
 
 double lattice_triangles(const GraphLevel& level) {
   return sum_over_blocks(level.size(), [&](std::size_t first, std::size_t last) {
@@ -162,19 +168,26 @@ LatticeResult lay_lattice(const RefinedScan& refined, const Anchors& anchors, do
 
 LatticeResult remesh_by_lattice(const SurfaceMesh& scan, const LatticeOptions& options, const Progress& progress) {
   progress("sizing", 0);
-  SurfaceMesh ordered = scan;
-  const std::vector<std::uint32_t> place = order_along_curve(ordered);
+  SurfaceMesh nodes = scan;
+  std::vector<std::uint32_t> node_of = order_along_curve(nodes);
+  if (2 * static_cast<double>(nodes.vertices.size()) > many_nodes * options.sizing.triangles) {
+    const std::vector<std::uint32_t> thinned =
+        thin_scan(nodes, static_cast<std::size_t>(enough_nodes * options.sizing.triangles / 2));
+    for (std::uint32_t& v : node_of) v = thinned[v];
+  }
+  // Of vertices that became one, the shortest length counts.
+  std::vector<double> factors(options.sizing.factors.empty() ? 0 : nodes.vertices.size(),
+                              std::numeric_limits<double>::infinity());
+  for (std::size_t v = 0; v < options.sizing.factors.size(); ++v)
+    factors[node_of[v]] = std::min(factors[node_of[v]], options.sizing.factors[v]);
   SizingOptions sizing_options = options.sizing;
-  std::vector<double> factors(options.sizing.factors.size());
-  for (std::size_t v = 0; v < factors.size(); ++v) factors[place[v]] = options.sizing.factors[v];
   sizing_options.factors = factors;
-  const SizingField sizing = compute_sizing_field(ordered, sizing_options);
-  const double wanted = predicted_triangles(ordered, sizing);
+  const SizingField sizing = compute_sizing_field(nodes, sizing_options);
+  const double wanted = predicted_triangles(nodes, sizing);
   progress("graph", 0.15);
-  RefinedScan refined = refine_scan(std::move(ordered), sizing, options.longest_scan_edge);
-  std::vector<std::uint32_t> scan_vertex_at(place.size());
-  for (std::size_t v = 0; v < place.size(); ++v) scan_vertex_at[v] = refined.scan_vertex_at[place[v]];
-  refined.scan_vertex_at = std::move(scan_vertex_at);
+  RefinedScan refined = refine_scan(std::move(nodes), sizing, options.longest_scan_edge);
+  for (std::uint32_t& v : node_of) v = refined.scan_vertex_at[v];
+  refined.scan_vertex_at = std::move(node_of);
   return lay_lattice(refined, {}, wanted, options, progress);
 }
 
