@@ -219,6 +219,14 @@ void shorten_around(const std::vector<Vec3>& bad, const SurfaceMesh& scan, doubl
 // Smaller ones, where no creases make them, are worth another lattice.
 constexpr double poor_angle_deg = 15;
 
+// Solvers warn of smaller ones; then contractions may do better.
+constexpr double usable_angle_deg = 5;
+
+bool is_usable(const Candidate& candidate) {
+  std::vector<Vec3> bad;
+  return smallest_angle_beside_creases_deg(candidate, 0, bad) >= usable_angle_deg;
+}
+
 // Whether its smallest angle is no smaller, or no poor one.
 bool is_as_well_shaped(const Candidate& candidate, const Candidate& other) {
   std::vector<Vec3> bad;
@@ -324,21 +332,6 @@ void refuse_failed(const Candidate& candidate, double triangles) {
                        .advice = "more triangles (--faces, or a smaller --edge-length or --deviation)"});
 }
 
-// Contractions may end in triangles that no mesher takes.
-void refuse_needles(const Candidate& candidate, double triangles) {
-  constexpr double least_angle_deg_of_mesh = 0.5;
-  std::vector<Vec3> needles;
-  const double angle_deg = smallest_angle_beside_creases_deg(candidate, least_angle_deg_of_mesh, needles);
-  if (needles.empty()) return;
-  const Vec3& at = needles.back();  // the sharpest
-  throw NotMeshable({.what = "no sound surface of " + std::to_string(std::lround(triangles)) +
-                             " triangles: " + candidate.fallback_reason,
-                     .where = std::to_string(at.x()) + " " + std::to_string(at.y()) + " " + std::to_string(at.z()),
-                     .value = "an angle of " + std::to_string(angle_deg) + " degrees",
-                     .limit = std::to_string(least_angle_deg_of_mesh),
-                     .advice = "more triangles (--faces, or a smaller --edge-length or --deviation)"});
-}
-
 }  // namespace
 
 Candidate make_surface(const PreparedScanPointer& scan, const SizingOptions& sizing, const SimplifyOptions& options,
@@ -358,7 +351,8 @@ Candidate make_surface(const PreparedScanPointer& scan, const SizingOptions& siz
     if (!lost_shape && !is_ill_shaped(candidate)) return candidate;
     Candidate by_shape =
         make_surface_by_shape(*scan, sizing, options, effort, shape_budget(sizing.triangles, lost_shape), progress);
-    if (by_shape.failure.empty() && (lost_shape || is_as_well_shaped(by_shape, candidate))) return by_shape;
+    if (by_shape.failure.empty() && (failed ? is_usable(by_shape) : is_as_well_shaped(by_shape, candidate)))
+      return by_shape;
   }
   if (!failed) return candidate;
   if (scan->has_creases()) candidate = with_fewer_creases(std::move(candidate), sizing, plan, progress);
@@ -366,8 +360,6 @@ Candidate make_surface(const PreparedScanPointer& scan, const SizingOptions& siz
     std::string reason = std::move(candidate.failure);
     candidate = by_contraction(candidate.scan, sizing, plan, progress);
     candidate.fallback_reason = std::move(reason);
-    // The search for a deviation has other lengths to try.
-    if (!plan.within_deviation) refuse_needles(candidate, sizing.triangles);
   }
   refuse_failed(candidate, sizing.triangles);
   return candidate;

@@ -44,8 +44,10 @@ constexpr double mended_deg = 30;
 
 // With more bad triangles than this the size as a whole is wrong, not places.
 constexpr double share_of_many = 0.1;
-// With more bad places than these another surface costs less than the mending of each.
-constexpr std::size_t few_places = 10;
+// With more places another surface costs less than the mending of each: over the triangles where their shape is bad, as
+// a number where edges are to be shorter around, which takes larger patches.
+constexpr double few_bad_places = 0.01;
+constexpr std::size_t few_coarse_places = 3;
 
 // Wanted with fewer triangles than this, a part without its edges stands for nothing any more: edges go before angles.
 constexpr double few_triangles_of_part = 1000;
@@ -57,6 +59,9 @@ constexpr double few_beyond = 0.06, most_beyond = 0.15;
 // Where triangles as large as the deviation allows are too large for the part's edges, smaller ones keep their shape.
 // The bound is where isotropic remeshing with kept edges ends (CGAL: 1.18 to 1.21 on plates, cubes and cylinders).
 constexpr double worst_mean_edge_ratio = 1.18;
+
+// Of a deviation, what is left to the shift that restores the volume.
+constexpr double for_volume = 0.005;
 
 // Around bad places edge lengths may grow this many times as fast as elsewhere: at the surface's own gradation a few
 // short edges would drag those of a whole neighbourhood along.
@@ -146,16 +151,20 @@ Candidate SurfaceSearch::run(const Progress& progress) {
 
 std::optional<Candidate> SurfaceSearch::run_again(std::span<const ShorterEdges> places, double most_triangles,
                                                   const Progress& progress) {
-  if (places.size() <= few_places && !is_mended_for_user_ && last_.candidate.method == SimplifyMethod::lattice) {
+  const std::vector<ShorterEdges> apart = without_overlaps(places);
+  if (apart.size() <= few_coarse_places && !is_mended_for_user_ && last_.candidate.method == SimplifyMethod::lattice) {
     is_mended_for_user_ = true;
-    if (mend_in_place(last_, places, MendFor::size, progress)) return last_.candidate;
+    if (mend_in_place(last_, apart, MendFor::size, progress)) return last_.candidate;
   }
   is_mended_for_user_ = false;
   if (length_.empty()) length_ = scan_->wanted_lengths(sizing_);
   shorten_around(places, scan_->mesh, length_);
   if (!ask_for_lower_lengths(most_triangles)) return {};
   try {
-    last_ = make(progress);
+    Trial made = make(progress);
+    // What was asked for first comes before what is asked for now.
+    if (holds(last_) && !holds(made)) return {};
+    last_ = std::move(made);
     return last_.candidate;
   } catch (const NotMeshable&) {
     return {};
@@ -252,7 +261,6 @@ void SurfaceSearch::note_deviation(Trial& made, const DeviationBound& bound) con
 void SurfaceSearch::bring_within(Trial& made, const Progress& progress) const {
   // The shift that restores the volume takes a little of the deviation; where it takes more, once more with more left.
   constexpr int trials = 3;
-  constexpr double for_volume = 0.005;
   constexpr double least_angle_deg = 28;
   // What the patches' fits must follow, over the deviation; no looser than mending is (MendOptions), and not so tight
   // that shape has no say.
@@ -282,17 +290,20 @@ void SurfaceSearch::open_wedges_within(Trial& made) const {
   if (wanted_.deviation)
     note_deviation(opened, bound_deviation(opened.candidate.mesh, opened.candidate.scan->deviation_reference(),
                                            {.limit = wanted_.deviation->distance}));
-  if (!holds(made) || holds(opened) || !wanted_.deviation->required) made = std::move(opened);
+  if (!holds(made) || holds(opened)) made = std::move(opened);
 }
 
-// Few bad triangles, folds and wedges are mended where they are.
+// Few bad triangles, folds and wedges are mended where they are. Not where nothing else asks for the tree of the scan
+// that it takes: on a large one it would be the peak of the memory.
 void SurfaceSearch::mend_shape(Trial& made, const Progress& progress) const {
+  if (!wanted_.deviation && !options_.for_tetrahedra) return;
   const ShapeLimits limits{.least_angle_deg = mended_deg, .walls = options_.for_tetrahedra};
   made.shape = find_shape_defects(made.candidate, limits);
-  const std::size_t bad = made.shape.bad.size();
-  if (bad == 0 || bad > few_places || made.candidate.method != SimplifyMethod::lattice) return;
-  if (mend_in_place(made, made.shape.bad, MendFor::shape, progress))
-    made.shape = find_shape_defects(made.candidate, limits);
+  const std::vector<ShorterEdges> bad = made.shape.bad;
+  if (bad.empty() || made.candidate.method != SimplifyMethod::lattice ||
+      static_cast<double>(bad.size()) > few_bad_places * static_cast<double>(made.candidate.faces()))
+    return;
+  if (mend_in_place(made, bad, MendFor::shape, progress)) made.shape = find_shape_defects(made.candidate, limits);
 }
 
 // A deviation that was asked for comes first. Whether some place was mended.
@@ -303,7 +314,8 @@ bool SurfaceSearch::mend_in_place(Trial& made, std::span<const ShorterEdges> pla
   SurfaceMesh& mesh = mended.candidate.mesh;
   MendPlacesOptions options;
   options.reason = reason;
-  options.limit = wanted_.deviation ? wanted_.deviation->distance : made.candidate.fit.largest_distance;
+  options.limit =
+      wanted_.deviation ? (1 - for_volume) * wanted_.deviation->distance : made.candidate.fit.largest_distance;
   options.least_angle_deg = mended_deg;
   const MendPlacesResult result = mend_places(mesh, mended.candidate.net, scan.reference(),
                                               scan.deviation_reference().tree(), places, options, progress);

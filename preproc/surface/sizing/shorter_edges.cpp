@@ -9,6 +9,16 @@ ShorterEdges shorter_edges(const Vec3& centre, double longest_edge, double angle
   return {{centre, reach * longest_edge}, std::clamp(angle_deg / good_deg, most_shortening, least_shortening)};
 }
 
+std::vector<ShorterEdges> without_overlaps(std::span<const ShorterEdges> places) {
+  std::vector<ShorterEdges> apart;
+  for (const ShorterEdges& place : places)
+    if (std::none_of(apart.begin(), apart.end(), [&](const ShorterEdges& other) {
+          return (place.where.centre - other.where.centre).norm() < other.where.radius;
+        }))
+      apart.push_back(place);
+  return apart;
+}
+
 void shorten_around(std::span<const ShorterEdges> places, const SurfaceMesh& scan, std::vector<double>& edge_length) {
   for (std::size_t v = 0; v < edge_length.size(); ++v) {
     double factor = 1;

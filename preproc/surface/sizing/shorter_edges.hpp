@@ -22,6 +22,9 @@ struct ShorterEdges {
 // within one and a half of its longest edge, so that its neighbours are shortened too.
 ShorterEdges shorter_edges(const Vec3& centre, double longest_edge, double angle_deg, double good_deg);
 
+// Without those whose centre lies in one before. O(n x what is left).
+std::vector<ShorterEdges> without_overlaps(std::span<const ShorterEdges> places);
+
 // Multiplies the lengths of the scan's vertices at these places, each by the smallest factor there. O(places x
 // vertices).
 void shorten_around(std::span<const ShorterEdges> places, const SurfaceMesh& scan, std::vector<double>& edge_length);
