@@ -171,11 +171,13 @@ Candidate best_by_lattice(const PreparedScanPointer& scan, const SizingOptions& 
 // Whether a part came out far from where it was. The bound is above that of the default job.
 bool is_far(const Candidate& candidate) {
   constexpr double largest_deviation = 0.003;  // of a body's diagonal
+  constexpr double of_edge = 0.2;  // what is bent, not lost, is nearer than the chord of a sixth of a circle
+  const double edge = equilateral_edge(surface_area(candidate.mesh), static_cast<double>(candidate.faces()));
   const Components bodies = find_components(candidate.mesh);
   const std::vector<double> diagonal = diagonals(candidate.mesh, bodies);
   for (std::size_t f = 0; f < candidate.faces(); ++f)
     if (candidate.fit.largest_distance_of_face[f] >
-        largest_deviation * diagonal[bodies.of_vertex[candidate.mesh.triangles[f][0]]])
+        std::max(of_edge * edge, largest_deviation * diagonal[bodies.of_vertex[candidate.mesh.triangles[f][0]]]))
       return true;
   return false;
 }
@@ -347,10 +349,9 @@ Candidate make_surface(const PreparedScanPointer& scan, const SizingOptions& siz
   const bool failed = !candidate.failure.empty();
   // A deviation asks for shorter edges itself.
   if (may_go_by_shape && !plan.within_deviation && is_part(scan->given)) {
-    const bool lost_shape = failed || is_far(candidate);
-    if (!lost_shape && !is_ill_shaped(candidate)) return candidate;
+    if (!failed && !is_far(candidate) && !is_ill_shaped(candidate)) return candidate;
     Candidate by_shape =
-        make_surface_by_shape(*scan, sizing, options, effort, shape_budget(sizing.triangles, lost_shape), progress);
+        make_surface_by_shape(*scan, sizing, options, effort, shape_budget(sizing.triangles, failed), progress);
     if (by_shape.failure.empty() && (failed ? is_usable(by_shape) : is_as_well_shaped(by_shape, candidate)))
       return by_shape;
   }
@@ -396,7 +397,8 @@ Candidate make_surface_by_shape(const PreparedScan& scan, const SizingOptions& s
 }
 
 ShapeBudget shape_budget(double wanted, bool lost_shape) {
-  constexpr double most = 3, few = 40000;
+  constexpr double most = 3, most_of_small = 40;
+  const double few = lost_shape ? 40000 : std::min(8000.0, most_of_small * wanted);
   return {.triangles = std::max(most * wanted, few), .trials = lost_shape ? 3 : 2};
 }
 

@@ -42,8 +42,8 @@ struct Candidate {
 Candidate make_surface(const PreparedScanPointer& scan, const SizingOptions& sizing, const SimplifyOptions& options,
                        Effort effort, bool may_go_by_shape, const Progress& progress);
 
-// What a part's shape may take: triangles, about, and lattices. Three times the wanted triangles, or what costs little;
-// more where the part would be lost.
+// What a part's shape may take: triangles, about, and lattices. Three times the wanted triangles, or 8,000 but at most
+// forty times as many; 40,000 where the part would be lost, since no lattice holds it.
 struct ShapeBudget {
   double triangles;
   int trials;
