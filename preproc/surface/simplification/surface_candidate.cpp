@@ -171,13 +171,11 @@ Candidate best_by_lattice(const PreparedScanPointer& scan, const SizingOptions& 
 // Whether a part came out far from where it was. The bound is above that of the default job.
 bool is_far(const Candidate& candidate) {
   constexpr double largest_deviation = 0.003;  // of a body's diagonal
-  constexpr double of_edge = 0.2;  // what is bent, not lost, is nearer than the chord of a sixth of a circle
-  const double edge = equilateral_edge(surface_area(candidate.mesh), static_cast<double>(candidate.faces()));
   const Components bodies = find_components(candidate.mesh);
   const std::vector<double> diagonal = diagonals(candidate.mesh, bodies);
   for (std::size_t f = 0; f < candidate.faces(); ++f)
     if (candidate.fit.largest_distance_of_face[f] >
-        std::max(of_edge * edge, largest_deviation * diagonal[bodies.of_vertex[candidate.mesh.triangles[f][0]]]))
+        largest_deviation * diagonal[bodies.of_vertex[candidate.mesh.triangles[f][0]]])
       return true;
   return false;
 }
