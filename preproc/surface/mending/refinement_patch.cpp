@@ -128,7 +128,7 @@ Trial with_split_edges(const HalfedgeMesh& mesh, std::span<const Index> edges, c
   std::vector<std::uint32_t> inserted;
   for (const Index h : edges) {
     const FeatureEdge edge = feature_edge(changed.origin(h), changed.target(h));
-    Vec3 middle = 0.5 * (mesh.points[edge[0]] + mesh.points[edge[1]]);
+    Vec3 middle = 0.5 * (changed.points[edge[0]] + changed.points[edge[1]]);
     const auto v = static_cast<std::uint32_t>(changed.vertex_slots());
     const auto on_line =
         std::find_if(trial.lines.begin(), trial.lines.end(), [&](const LineEdge& e) { return e.edge() == edge; });

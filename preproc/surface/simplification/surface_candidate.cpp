@@ -347,9 +347,10 @@ Candidate make_surface(const PreparedScanPointer& scan, const SizingOptions& siz
   const bool failed = !candidate.failure.empty();
   // A deviation asks for shorter edges itself.
   if (may_go_by_shape && !plan.within_deviation && is_part(scan->given)) {
-    if (!failed && !is_far(candidate) && !is_ill_shaped(candidate)) return candidate;
+    const bool lost_shape = failed || is_far(candidate);
+    if (!lost_shape && !is_ill_shaped(candidate)) return candidate;
     Candidate by_shape =
-        make_surface_by_shape(*scan, sizing, options, effort, shape_budget(sizing.triangles, failed), progress);
+        make_surface_by_shape(*scan, sizing, options, effort, shape_budget(sizing.triangles, lost_shape), progress);
     if (by_shape.failure.empty() && (failed ? is_usable(by_shape) : is_as_well_shaped(by_shape, candidate)))
       return by_shape;
   }
@@ -395,8 +396,9 @@ Candidate make_surface_by_shape(const PreparedScan& scan, const SizingOptions& s
 }
 
 ShapeBudget shape_budget(double wanted, bool lost_shape) {
-  constexpr double most = 3, most_of_small = 40;
-  const double few = lost_shape ? 40000 : std::min(8000.0, most_of_small * wanted);
+  constexpr double most = 3, few_lost = 40000, most_of_lost = 200, few_ill_shaped = 8000, most_of_ill_shaped = 40;
+  const double few =
+      lost_shape ? std::min(few_lost, most_of_lost * wanted) : std::min(few_ill_shaped, most_of_ill_shaped * wanted);
   return {.triangles = std::max(most * wanted, few), .trials = lost_shape ? 3 : 2};
 }
 
