@@ -24,8 +24,8 @@ struct TriangleShape {
   double radius_ratio;  // 2 * inscribed radius / circumscribed radius: 1 for equilateral, 0 for zero area
 };
 
-// Longest edge over shortest edge: AR of [1], sections 2 and 3. Infinite where two corners coincide; 2 at most for a flat triangle
-// with its apex in the middle, so that it does not bar degenerate triangles.
+// Longest edge over shortest edge: AR of [1], sections 2 and 3. Infinite where two corners coincide; 2 at most for a
+// flat triangle with its apex in the middle, so that it does not bar degenerate triangles.
 double edge_ratio(const Vec3& a, const Vec3& b, const Vec3& c);
 
 // eta = (l1^2 + l2^2 + l3^2) / (4 sqrt(3) area) >= 1. Infinite for every degenerate triangle: a barrier.

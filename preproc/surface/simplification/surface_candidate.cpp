@@ -396,7 +396,7 @@ Candidate make_surface_by_shape(const PreparedScan& scan, const SizingOptions& s
 }
 
 ShapeBudget shape_budget(double wanted, bool lost_shape) {
-  constexpr double most = 3, few_lost = 40000, most_of_lost = 200, few_ill_shaped = 8000, most_of_ill_shaped = 40;
+  constexpr double most = 3, few_lost = 40000, most_of_lost = 1000, few_ill_shaped = 8000, most_of_ill_shaped = 40;
   const double few =
       lost_shape ? std::min(few_lost, most_of_lost * wanted) : std::min(few_ill_shaped, most_of_ill_shaped * wanted);
   return {.triangles = std::max(most * wanted, few), .trials = lost_shape ? 3 : 2};

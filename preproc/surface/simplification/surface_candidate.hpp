@@ -43,7 +43,7 @@ Candidate make_surface(const PreparedScanPointer& scan, const SizingOptions& siz
                        Effort effort, bool may_go_by_shape, const Progress& progress);
 
 // What a part's shape may take: triangles, about, and lattices. Three times the wanted triangles, or 8,000 but at most
-// forty times as many; where the part would be lost, 40,000 but at most two hundred times as many.
+// forty times as many; where the part would be lost, 40,000 but at most a thousand times as many.
 struct ShapeBudget {
   double triangles;
   int trials;
