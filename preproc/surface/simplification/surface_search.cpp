@@ -121,10 +121,14 @@ Candidate SurfaceSearch::run(const Progress& progress) {
   if (options_.method != SimplifyMethod::lattice) return std::move(best.candidate);
   bool was_by_shape = false;
   for (int in_vain = 0; !is_accepted(latest) && in_vain <= patience(latest.candidate.faces());) {
-    const std::vector<double> length = length_;
+    std::vector<double> length = length_;
+    const SizingOptions sizing = sizing_;
     lower_lengths(latest);
     if (!ask_for_lower_lengths(most_triangles())) {
-      length_ = length;
+      // Whoever asks again goes on from what was made.
+      length_ = std::move(length);
+      sizing_ = sizing;
+      if (!length_.empty()) sizing_.factors = length_;
       break;
     }
     try {
@@ -218,6 +222,8 @@ SurfaceSearch::Trial SurfaceSearch::judged(Candidate candidate, const Progress& 
   if (!made.candidate.lengths_by_shape.empty()) {
     scan_ = made.candidate.scan;
     length_ = made.candidate.lengths_by_shape;
+    sizing_.factors = length_;
+    wanted_.longest.clear();  // of another mesh's vertices, and in these lengths already
   }
   work_ += static_cast<double>(made.candidate.faces());
   if (wanted_.deviation)
@@ -298,12 +304,11 @@ void SurfaceSearch::open_wedges_within(Trial& made) const {
 void SurfaceSearch::mend_shape(Trial& made, const Progress& progress) const {
   if (!wanted_.deviation && !options_.for_tetrahedra) return;
   const ShapeLimits limits{.least_angle_deg = mended_deg, .walls = options_.for_tetrahedra};
-  made.shape = find_shape_defects(made.candidate, limits);
-  const std::vector<ShorterEdges> bad = made.shape.bad;
+  const std::vector<ShorterEdges> bad = find_shape_defects(made.candidate, limits).bad;
   if (bad.empty() || made.candidate.method != SimplifyMethod::lattice ||
       static_cast<double>(bad.size()) > few_bad_places * static_cast<double>(made.candidate.faces()))
     return;
-  if (mend_in_place(made, bad, MendFor::shape, progress)) made.shape = find_shape_defects(made.candidate, limits);
+  mend_in_place(made, bad, MendFor::shape, progress);
 }
 
 // A deviation that was asked for comes first. Whether some place was mended.
