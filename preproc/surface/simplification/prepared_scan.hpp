@@ -17,8 +17,6 @@ namespace scan2fea {
 // of the creases, another one stands beside it (with_creases). It refers to the meshes, which must outlive it.
 class PreparedScan {
  public:
-  PreparedScan(const SurfaceMesh& surface, std::vector<FeatureEdge> creases, const CurveTolerance& tolerance_of_curves)
-      : PreparedScan(surface, surface, std::move(creases), tolerance_of_curves) {}
   // `surface` is `scan_given` with smaller faces.
   PreparedScan(const SurfaceMesh& scan_given, const SurfaceMesh& surface, std::vector<FeatureEdge> creases,
                const CurveTolerance& tolerance_of_curves)

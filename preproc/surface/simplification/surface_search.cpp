@@ -4,11 +4,9 @@
 #include "preproc/surface/features/feature_selection.hpp"
 #include "preproc/surface/fit/preserve_volume.hpp"
 #include "preproc/surface/mending/local_refinement.hpp"
-#include "preproc/surface/mending/mend_places.hpp"
 #include "preproc/surface/simplification/deviation_at_scan.hpp"
 #include "preproc/surface/simplification/error_sizing.hpp"
 #include "preproc/surface/sizing/size_limits.hpp"
-#include "quality/deviation_bound.hpp"
 #include "quality/triangle_measures.hpp"
 
 #include <algorithm>
