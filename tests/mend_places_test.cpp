@@ -2,6 +2,8 @@
 
 #include "preproc/mesh/error.hpp"
 #include "preproc/surface/features/feature_net.hpp"
+#include "preproc/surface/kernel/adjacency.hpp"
+#include "preproc/surface/mending/constraint_projection.hpp"
 #include "quality/deviation_bound.hpp"
 #include "quality/self_intersections.hpp"
 #include "quality/triangle_measures.hpp"
@@ -32,6 +34,18 @@ double least_angle_deg(const SurfaceMesh& mesh) {
   return least;
 }
 
+// Interior, degrees.
+double sharpest_edge_deg(const SurfaceMesh& mesh) {
+  const MeshAdjacency adjacency(mesh);
+  double sharpest = 360;
+  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f)
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const Hinge hinge{f, k, {}, area_vector(mesh, mesh.triangles[adjacency.neighbours[f][k]])};
+      sharpest = std::min(sharpest, hinge.angle_deg(mesh));
+    }
+  return sharpest;
+}
+
 double mean_edge_within(const SurfaceMesh& mesh, const Ball& where) {
   double sum = 0;
   int count = 0;
@@ -56,7 +70,8 @@ void expect_sound(const SurfaceMesh& mesh) {
 class MendPlaces : public testing::Test {
  protected:
   MendPlacesResult mend(SurfaceMesh& mesh, const ShorterEdges& place, const MendPlacesOptions& options) {
-    return mend_places(mesh, none_, ReferenceSurface(scan_), TriangleTree(scan_), {&place, 1}, options);
+    const TriangleTree tree(scan_);
+    return mend_places(mesh, none_, ReferenceSurface(scan_), &tree, {&place, 1}, options);
   }
 
   const SurfaceMesh scan_ = analytic::sphere(1, 5);
@@ -75,7 +90,7 @@ TEST_F(MendPlaces, NarrowTrianglesAreMendedAndNothingElseMoves) {
   const SurfaceMesh before = mesh;
   const MendPlacesResult result = mend(mesh, {{mesh.vertices[v], 0.2}, 0.75}, {.limit = limit});
   EXPECT_EQ(result.mended, 1U);
-  EXPECT_TRUE(result.left.empty());
+  EXPECT_EQ(result.left, 0U);
   EXPECT_GE(least_angle_deg(mesh), 30);
   EXPECT_LE(bound_deviation(mesh, scan_, {.limit = limit}).upper(), limit);
   expect_sound(mesh);
@@ -83,6 +98,21 @@ TEST_F(MendPlaces, NarrowTrianglesAreMendedAndNothingElseMoves) {
     if ((before.vertices[u] - tip).norm() > 1) {
       EXPECT_EQ(mesh.vertices[u], before.vertices[u]);
     }
+}
+
+// An edge is pulled out to a ridge; half the angle over it would bound that of tetrahedra.
+TEST_F(MendPlaces, FoldsAreOpened) {
+  SurfaceMesh mesh = even_;
+  const Triangle t = mesh.triangles[100];
+  const double edge = (mesh.vertices[t[0]] - mesh.vertices[t[1]]).norm();
+  for (const std::uint32_t v : {t[0], t[1]}) mesh.vertices[v] *= 1 + 1.6 * edge;
+  ASSERT_LT(sharpest_edge_deg(mesh), 55);
+  const ShorterEdges place{{(mesh.vertices[t[0]] + mesh.vertices[t[1]]) / 2, 2 * edge}, 0.75};
+  const MendPlacesResult result = mend(mesh, place, {.limit = limit});
+  EXPECT_EQ(result.left, 0U);
+  EXPECT_GE(sharpest_edge_deg(mesh), 60);
+  EXPECT_GE(least_angle_deg(mesh), 30);
+  expect_sound(mesh);
 }
 
 TEST_F(MendPlaces, EdgesBecomeAsShortAsAskedFor) {
@@ -110,7 +140,7 @@ TEST_F(MendPlaces, LeavesWhatLacksNothing) {
   SurfaceMesh mesh = even_;
   const MendPlacesResult result = mend(mesh, {{tip, 0.25}, 0.5}, {.limit = limit});
   EXPECT_EQ(result.mended, 0U);
-  EXPECT_TRUE(result.left.empty());
+  EXPECT_EQ(result.left, 0U);
   EXPECT_EQ(mesh.vertices, even_.vertices);
   EXPECT_EQ(mesh.triangles, even_.triangles);
 }
@@ -127,8 +157,8 @@ TEST(MendPlacesOfAWall, OneSideOnlyIsShortened) {
   SurfaceMesh mesh = wall;
   FeatureNet none;
   const ShorterEdges place{{{2, 2, 0.8}, 0.9}, 0.6};
-  const MendPlacesResult result = mend_places(mesh, none, ReferenceSurface(scan), TriangleTree(scan), {&place, 1},
-                                              {.reason = MendFor::size, .limit = 0.02});
+  const MendPlacesResult result =
+      mend_places(mesh, none, ReferenceSurface(scan), nullptr, {&place, 1}, {.reason = MendFor::size, .limit = 0.02});
   EXPECT_EQ(result.mended, 1U);
   EXPECT_GT(result.inserted, 0U);
   expect_sound(mesh);

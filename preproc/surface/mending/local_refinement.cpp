@@ -1,20 +1,16 @@
 #include "preproc/surface/mending/local_refinement.hpp"
 
 #include "preproc/mesh/error.hpp"
-#include "preproc/surface/kernel/face_boxes.hpp"
 #include "preproc/surface/kernel/locate.hpp"
 #include "preproc/surface/kernel/nearest.hpp"
 #include "preproc/surface/kernel/parallel_blocks.hpp"
-#include "preproc/surface/mending/refinement_patch.hpp"
+#include "preproc/surface/mending/mend_patches.hpp"
+#include "preproc/surface/sizing/shorter_edges.hpp"
 #include "quality/deviation_bound.hpp"
-#include "quality/face_blocks.hpp"
 #include "quality/triangle_tree.hpp"
-
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <string>
 
 namespace scan2fea {
@@ -22,15 +18,15 @@ namespace {
 
 // Rings of faces around a place: with fewer the rim holds what should move, with more the fit costs more.
 constexpr int fewest_rings = 1;
-constexpr int most_rings = 3;
+constexpr int most_rings = 2;
 // So many vertices of the scan are asked for their distance: more of a dense scan tell little more.
 constexpr std::size_t most_vertices_per_face = 6;
 // The part of the limit that is kept free for the exact volume's shift.
 constexpr double reserve = 0.01;
-// Where nothing helps, smaller angles are allowed, so often and by so much each time; then all is tried from the start
-// again, since what has changed around gives other ways, until nothing changes any more.
-constexpr int most_yielding = 2;
-constexpr double yielding_deg = 12;
+// Where nothing helps, as in a fold of the scan that the triangles are too large to follow, edges become so many times
+// as long there; then all is tried again, so often.
+constexpr double shortening = 0.6;
+constexpr int most_shortenings = 3;
 
 struct Place {
   std::uint32_t face;  // of the mesh
@@ -110,87 +106,17 @@ std::vector<Place> places_beyond(const std::vector<double>& deviation, double li
   return places;
 }
 
-// Per patch the faces of the scan in its box. Without a tree: a scan may have millions: whole blocks of them are told
-// to be far away by one box, since neighbours in a file are mostly neighbours in space.
-std::vector<std::vector<std::uint32_t>> scan_faces_near(const SurfaceMesh& scan, const TriangleTree* tree,
-                                                        const std::vector<RefinementPatch>& patches) {
-  std::vector<std::vector<std::uint32_t>> near(patches.size());
-  if (tree != nullptr) {
-    for (std::size_t p = 0; p < patches.size(); ++p) {
-      tree->for_each_overlap(patches[p].box(), [&](std::uint32_t f) { near[p].push_back(f); });
-      std::sort(near[p].begin(), near[p].end());
-    }
-    return near;
-  }
-  using Hits = std::vector<std::pair<std::uint32_t, std::uint32_t>>;  // patch, face
-  std::vector<Hits> hits(parallel_block_count(scan.triangles.size()));
-  for_each_block(scan.triangles.size(), [&](std::size_t first, std::size_t last) {
-    std::vector<BoundingBox> boxes(last - first);
-    BoundingBox all = box_of_face(scan, static_cast<std::uint32_t>(first));
-    for (std::size_t f = first; f < last; ++f) {
-      boxes[f - first] = box_of_face(scan, static_cast<std::uint32_t>(f));
-      all.low = all.low.cwiseMin(boxes[f - first].low);
-      all.high = all.high.cwiseMax(boxes[f - first].high);
-    }
-    for (std::size_t p = 0; p < patches.size(); ++p) {
-      if (!boxes_meet(all, patches[p].box())) continue;
-      for (std::size_t f = first; f < last; ++f)
-        if (boxes_meet(boxes[f - first], patches[p].box()))
-          hits[first / parallel_block_size].emplace_back(static_cast<std::uint32_t>(p), static_cast<std::uint32_t>(f));
-    }
-  });
-  for (const Hits& block : hits)
-    for (const auto& [p, f] : block) near[p].push_back(f);
-  return near;
-}
-
-// The boxes of a surface's faces while patches of it change.
-class BoxesOfSurface {
- public:
-  explicit BoxesOfSurface(const SurfaceMesh& mesh) : boxes_(mesh), built_(mesh.triangles.size()) {}
-
-  void renew(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& faces) {
-    for (const std::uint32_t f : faces)
-      if (f < built_) boxes_.set(f, box_of_face(mesh, f));
-  }
-
-  // Ascending, but for the patch's own.
-  std::vector<std::uint32_t> faces_around(const SurfaceMesh& mesh, const RefinementPatch& patch) const {
-    std::vector<std::uint32_t> around;
-    const auto add = [&](std::uint32_t f) {
-      if (!std::binary_search(patch.faces().begin(), patch.faces().end(), f)) around.push_back(f);
-    };
-    boxes_.for_each_overlap(patch.box(), add);
-    // Those that came since are few.
-    for (auto f = static_cast<std::uint32_t>(built_); f < mesh.triangles.size(); ++f)
-      if (boxes_meet(box_of_face(mesh, f), patch.box())) add(f);
-    std::sort(around.begin(), around.end());
-    return around;
-  }
-
- private:
-  FaceBoxes boxes_;
-  std::size_t built_;  // faces that have a box
-};
-
-// What a round changed, and where the distance between mesh and scan may therefore be another.
-struct Changes {
-  LocalRefinementResult counts;
-  std::vector<std::uint32_t> changed;     // faces of the mesh
-  std::vector<std::uint32_t> scan_faces;  // in the boxes of the patches
-};
-
 // Faces around which nothing helped, and nothing has changed since: to try the same again would be in vain.
 class Hopeless {
  public:
   bool holds(std::uint32_t face) const { return face < is_hopeless_.size() && is_hopeless_[face]; }
   void clear() { is_hopeless_.clear(); }
 
-  void mark(const SurfaceMesh& mesh, const std::vector<Place>& places) {
+  void mark(const SurfaceMesh& mesh, const std::vector<PatchPlace>& places) {
     is_hopeless_.resize(mesh.triangles.size(), false);
     const VertexStars stars(mesh);
-    for (const Place& place : places)
-      for (const std::uint32_t v : mesh.triangles[place.face])
+    for (const PatchPlace& place : places)
+      for (const std::uint32_t v : place.seeds)
         for (const std::uint32_t corner : stars.corners(v)) is_hopeless_[corner / 3] = true;
   }
 
@@ -203,75 +129,34 @@ class Hopeless {
   std::vector<bool> is_hopeless_;
 };
 
-// Mends places that are apart from each other at once, until each has had its turn or lay within the patch of another,
-// which then stood for it. Returns those whose patches are still too far.
-std::vector<Place> mend(SurfaceMesh& mesh, BoxesOfSurface& boxes, FeatureNet& net, const ReferenceSurface& scan,
-                        const TriangleTree* scan_tree, std::vector<Place> places, int rings, const PatchGoal& goal,
-                        const LocalRefinementOptions& options, Changes& result) {
-  std::vector<Place> left;
-  std::vector<bool> covered;
-  while (!places.empty()) {
-    covered.resize(mesh.triangles.size(), false);
-    const VertexStars stars(mesh);
-    const std::vector<LineEdge> lines = line_edges(net);
-    std::vector<RefinementPatch> batch;
-    std::vector<Place> taken, later;
-    for (const Place& place : places) {
-      if (covered[place.face]) continue;
-      RefinementPatch patch(mesh, stars, mesh.triangles[place.face], rings, place.deviation, lines);
-      const bool is_apart = std::none_of(batch.begin(), batch.end(), [&](const RefinementPatch& other) {
-        return boxes_meet(patch.box(), other.box());
-      });
-      (is_apart ? taken : later).push_back(place);
-      if (!is_apart) continue;
-      for (const std::uint32_t f : patch.faces()) covered[f] = true;
-      batch.push_back(std::move(patch));
-    }
-    if (batch.empty()) break;
-    // The whole scan: cut along its creases, it has no side beyond them that a face next to one could agree with.
-    const std::vector<std::vector<std::uint32_t>> scan_faces = scan_faces_near(scan.whole, scan_tree, batch);
-    PatchGoal part = goal;
-    part.most_vertices =
-        (options.most_vertices - std::min(options.most_vertices, result.counts.inserted)) / batch.size();
-    std::vector<PatchOutcome> outcomes(batch.size());
-    tbb::parallel_for(std::size_t{0}, batch.size(), [&](std::size_t i) {
-      outcomes[i] = batch[i].improve(mesh, boxes.faces_around(mesh, batch[i]), scan.whole, scan_faces[i], net, part);
-    });
-    for (std::size_t i = 0; i < batch.size(); ++i) {
-      if (!outcomes[i].reached) left.push_back(taken[i]);
-      if (!outcomes[i].improved) continue;
-      const auto first_new = static_cast<std::uint32_t>(mesh.triangles.size());
-      batch[i].write(mesh, net);
-      boxes.renew(mesh, batch[i].faces());
-      result.changed.insert(result.changed.end(), batch[i].faces().begin(), batch[i].faces().end());
-      for (std::uint32_t f = first_new; f < mesh.triangles.size(); ++f) result.changed.push_back(f);
-      result.scan_faces.insert(result.scan_faces.end(), scan_faces[i].begin(), scan_faces[i].end());
-      result.counts.inserted += batch[i].inserted();
-      ++result.counts.patches;
-    }
-    places = std::move(later);
-  }
-  return left;
+ShorterEdges shorter_around(const SurfaceMesh& mesh, std::uint32_t face) {
+  const Triangle& t = mesh.triangles[face];
+  const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+  return {{(a + b + c) / 3, std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()})}, shortening};
 }
 
-Changes refine_places(SurfaceMesh& mesh, FeatureNet& net, const ReferenceSurface& scan, const TriangleTree* scan_tree,
-                      const std::vector<double>& deviation, const LocalRefinementOptions& options, Hopeless& hopeless) {
+PatchChanges refine_places(PatchMender& mender, const SurfaceMesh& mesh, const ReferenceSurface& scan,
+                           const std::vector<double>& deviation, Mending how, const LocalRefinementOptions& options,
+                           Hopeless& hopeless) {
   PatchGoal goal;
   goal.limit = goal_limit(options);
   goal.allowed = options.limit;
   goal.fidelity = options.fidelity_of_diagonal * scan.diagonal;
   goal.least_angle_deg = options.least_angle_deg;
-  std::vector<Place> places = places_beyond(deviation, options.limit);
-  std::erase_if(places, [&](const Place& place) { return hopeless.holds(place.face); });
-  Changes result;
-  BoxesOfSurface boxes(mesh);
-  for (int rings = fewest_rings; rings <= most_rings && !places.empty(); ++rings) {
-    goal.may_place = rings == most_rings;
-    places = mend(mesh, boxes, net, scan, scan_tree, std::move(places), rings, goal, options, result);
+  goal.most_vertices = options.most_vertices;
+  std::vector<PatchPlace> places;
+  for (const Place& place : places_beyond(deviation, options.limit)) {
+    if (hopeless.holds(place.face)) continue;
+    if (places.size() == options.most_places) break;
+    const Triangle& t = mesh.triangles[place.face];
+    places.push_back({{t.begin(), t.end()}, place.deviation, shorter_around(mesh, place.face)});
   }
-  hopeless.unmark(result.changed);
+  for (int rings = how == Mending::shorten ? most_rings : fewest_rings; rings <= most_rings && !places.empty(); ++rings)
+    places = mender.mend(std::move(places), rings, how, goal);
+  PatchChanges changes = mender.take_changes();
+  hopeless.unmark(changes.changed);
   hopeless.mark(mesh, places);
-  return result;
+  return changes;
 }
 
 // Bounds of the deviation that are renewed only where something has changed.
@@ -285,7 +170,6 @@ class KnownDeviation {
     return std::max(of(bound_.to_reference.upper), of(bound_.to_mesh.upper));
   }
   const std::vector<double>& of_mesh() const { return bound_.to_reference.upper; }
-  const TriangleTree& scan_tree() const { return scan_.tree(); }
 
   FarPoints far_points(const ReferenceSurface& scan) const {
     FarPoints far;
@@ -297,7 +181,7 @@ class KnownDeviation {
 
   // A face of the scan that was within the limit of a patch lies in the patch's box, which reaches farther: of the
   // others, what was within the limit still is, and what was not is asked again.
-  void renew(const SurfaceMesh& mesh, const Changes& changes) {
+  void renew(const SurfaceMesh& mesh, const PatchChanges& changes) {
     OneSidedDeviation &of_mesh = bound_.to_reference, &of_scan = bound_.to_mesh;
     for (std::vector<double>* bounds : {&of_mesh.lower, &of_mesh.upper}) bounds->resize(mesh.triangles.size());
     of_mesh.farthest.resize(mesh.triangles.size());
@@ -334,16 +218,11 @@ LocalRefinementResult refine_worst(SurfaceMesh& mesh, const ReferenceSurface& sc
   check(options);
   progress("local refinement", 0);
   attribute(far_vertices(mesh, scan, options.limit), mesh, scan.mean_edge(mesh.triangles.size()), deviation);
-  LocalRefinementOptions used = options;
-  if (options.most_places < deviation.size()) {
-    std::vector<double> sorted = deviation;
-    const auto next = sorted.begin() + static_cast<std::ptrdiff_t>(options.most_places);
-    std::nth_element(sorted.begin(), next, sorted.end(), std::greater<>());
-    used.limit = std::max(used.limit, *next);
-  }
   FeatureNet none;
+  PatchMender mender(mesh, none, scan, nullptr);
   Hopeless hopeless;
-  return refine_places(mesh, none, scan, nullptr, deviation, used, hopeless).counts;
+  const PatchChanges changes = refine_places(mender, mesh, scan, deviation, Mending::improve, options, hopeless);
+  return {changes.patches, changes.inserted};
 }
 
 BoundedRefinementResult refine_within(SurfaceMesh& mesh, const ReferenceSurface& scan,
@@ -356,13 +235,13 @@ BoundedRefinementResult refine_within(SurfaceMesh& mesh, FeatureNet& net, const 
                                       const DeviationReference& reference, const LocalRefinementOptions& options,
                                       const Progress& progress) {
   check(options);
-  net.patch_of_face.clear();
+  PatchMender mender(mesh, net, scan, &reference.tree());
   KnownDeviation known(mesh, reference, goal_limit(options));
   LocalRefinementOptions left = options;
   BoundedRefinementResult result;
   Hopeless hopeless;
-  int yielded = 0;
-  bool changed = false;
+  int shortened = 0;
+  Mending how = Mending::improve;
   for (int round = 0;; ++round) {
     progress("deviation", static_cast<double>(round) / options.rounds);
     result.largest_deviation = known.largest();
@@ -370,20 +249,17 @@ BoundedRefinementResult refine_within(SurfaceMesh& mesh, FeatureNet& net, const 
     std::vector<double> deviation = known.of_mesh();
     attribute(known.far_points(scan), mesh, scan.mean_edge(mesh.triangles.size()), deviation);
     left.most_vertices = options.most_vertices - std::min(options.most_vertices, result.changes.inserted);
-    const Changes changes = refine_places(mesh, net, scan, &known.scan_tree(), deviation, left, hopeless);
-    result.changes.patches += changes.counts.patches;
-    result.changes.inserted += changes.counts.inserted;
-    changed = changed || changes.counts.patches > 0;
-    if (changes.counts.patches > 0) {
+    const PatchChanges changes = refine_places(mender, mesh, scan, deviation, how, left, hopeless);
+    result.changes.patches += changes.patches;
+    result.changes.inserted += changes.inserted;
+    if (changes.patches > 0) {
       known.renew(mesh, changes);
+      how = Mending::improve;
       continue;
     }
-    if (yielded == most_yielding && !changed) break;
-    if (yielded == most_yielding) changed = false;
-    yielded = (yielded + 1) % (most_yielding + 1);
+    if (how == Mending::shorten || shortened++ == most_shortenings) break;
+    how = Mending::shorten;
     hopeless.clear();
-    left.least_angle_deg = std::max(0.0, options.least_angle_deg - yielded * yielding_deg);
-    left.fidelity_of_diagonal = options.fidelity_of_diagonal / std::pow(2, yielded);
   }
   return result;
 }

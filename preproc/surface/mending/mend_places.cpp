@@ -2,17 +2,16 @@
 
 #include "preproc/mesh/error.hpp"
 #include "preproc/surface/kernel/adjacency.hpp"
-#include "preproc/surface/mending/refinement_patch.hpp"
-#include "quality/face_blocks.hpp"
+#include "preproc/surface/mending/mend_patches.hpp"
 
-#include <algorithm>
 #include <string>
 
 namespace scan2fea {
 namespace {
 
-// Of faces around those of the place: they hold the change of lengths, and what moves to make room.
-constexpr int rings = 1;
+// Of faces around those of the place: they hold the change of lengths, and what moves to make room. Where it cannot be
+// mended as it is, edges are made shorter in a larger one.
+constexpr int rings_moved = 1, rings_shortened = 2;
 
 void check(const MendPlacesOptions& options) {
   if (!(options.limit > 0) || !(options.least_angle_deg > 0 && options.least_angle_deg < 60))
@@ -44,54 +43,31 @@ std::vector<std::uint32_t> vertices_of_place(const SurfaceMesh& mesh, const Vert
   return reached;
 }
 
-std::vector<std::uint32_t> faces_around(const SurfaceMesh& mesh, const RefinementPatch& patch) {
-  std::vector<std::uint32_t> around;
-  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f)
-    if (boxes_meet(box_of_face(mesh, f), patch.box()) &&
-        !std::binary_search(patch.faces().begin(), patch.faces().end(), f))
-      around.push_back(f);
-  return around;
-}
-
-std::vector<std::uint32_t> scan_faces_around(const TriangleTree& tree, const RefinementPatch& patch) {
-  std::vector<std::uint32_t> around;
-  tree.for_each_overlap(patch.box(), [&](std::uint32_t f) { around.push_back(f); });
-  std::sort(around.begin(), around.end());
-  return around;
-}
-
 }  // namespace
 
 MendPlacesResult mend_places(SurfaceMesh& mesh, FeatureNet& net, const ReferenceSurface& scan,
-                             const TriangleTree& scan_tree, std::span<const ShorterEdges> places,
+                             const TriangleTree* scan_tree, std::span<const ShorterEdges> places,
                              const MendPlacesOptions& options, const Progress& progress) {
   check(options);
-  net.patch_of_face.clear();
   PatchGoal goal;
   goal.limit = options.limit;
   goal.fidelity = options.fidelity_of_diagonal * scan.diagonal;
   goal.least_angle_deg = options.least_angle_deg;
+  goal.most_vertices = options.most_vertices;
   goal.for_shape = true;
-  MendPlacesResult result;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    progress("mending places", static_cast<double>(i) / static_cast<double>(places.size()));
-    const ShorterEdges& place = places[i];
-    const VertexStars stars(mesh);
-    RefinementPatch patch(mesh, stars, vertices_of_place(mesh, stars, place.where), rings, options.limit,
-                          line_edges(net));
-    const std::vector<std::uint32_t> around = faces_around(mesh, patch);
-    const std::vector<std::uint32_t> scan_faces = scan_faces_around(scan_tree, patch);
-    goal.most_vertices = options.most_vertices - std::min(options.most_vertices, result.inserted);
-    const PatchOutcome outcome = options.reason == MendFor::shape
-                                     ? patch.improve(mesh, around, scan.whole, scan_faces, net, goal)
-                                     : patch.shorten(mesh, around, scan.whole, scan_faces, net, goal, place);
-    if (!outcome.reached) result.left.push_back(place);
-    if (!outcome.improved) continue;
-    patch.write(mesh, net);
-    result.inserted += patch.inserted();
-    ++result.mended;
+  PatchMender mender(mesh, net, scan, scan_tree);
+  const VertexStars stars(mesh);
+  std::vector<PatchPlace> left;
+  for (const ShorterEdges& place : places)
+    left.push_back({vertices_of_place(mesh, stars, place.where), options.limit, place});
+  if (options.reason == MendFor::shape) {
+    left = mender.mend(std::move(left), rings_moved, Mending::improve, goal, progress);
+    left = mender.mend(std::move(left), rings_shortened, Mending::shorten, goal, progress);
+  } else {
+    left = mender.mend(std::move(left), rings_moved, Mending::shorten, goal, progress);
   }
-  return result;
+  const PatchChanges changes = mender.take_changes();
+  return {changes.patches, changes.inserted, left.size()};
 }
 
 }  // namespace scan2fea

@@ -1,8 +1,9 @@
 // Mends places of a made surface where they are, each by a patch (refinement_patch.hpp) whose rim stays: instead of
 // another lattice of the whole.
 //
-// For shape: edges are flipped and split and vertices fitted until no angle of a triangle, and no half of an angle
-// between two faces, is below the least. For size: edges are split until they are as short as is asked for, as
+// For shape: folds are opened, edges flipped and split and vertices fitted until no angle of a triangle, and no half of
+// an angle between two faces, which bounds that of tetrahedra, is below the least; where that is in vain, with shorter
+// edges. For size: edges are split until they are as short as is asked for, as
 // elements across a wall or poor tetrahedra want them, with lengths graded to the rim, and the shape then mended. A
 // patch is kept only where nothing crosses, no angle of triangles and none between faces gets worse, and the deviation
 // stays within the limit or no larger than it was.
@@ -34,18 +35,18 @@ struct MendPlacesOptions {
 };
 
 struct MendPlacesResult {
-  std::size_t mended = 0;          // places that are better than they were
-  std::size_t inserted = 0;        // vertices
-  std::vector<ShorterEdges> left;  // places that have not what was asked for
+  std::size_t mended = 0;    // patches that are better than they were
+  std::size_t inserted = 0;  // vertices
+  std::size_t left = 0;      // places that have not what was asked for
 };
 
-// One place after the other, in the order given. `scan_tree`: of scan.mesh. `mesh` is to be closed, manifold and free
-// of self-intersections, and so it is afterwards, with the same genus and components; vertices on the net's lines stay
-// where they are, and new ones come between them. The net's patches of faces are emptied. The volume changes a little
-// (see preserve_volume.hpp). A pass over the mesh and some tens to hundreds of ms a place, by its faces and the scan's
-// there. Throws WrongUsage for options out of range, Cancelled.
+// Places that overlap one after the other, in the order given; see PatchMender for the scan's tree. `mesh` is to be
+// closed, manifold and free of self-intersections, and so it is afterwards, with the same genus and components;
+// vertices on the net's lines stay where they are, and new ones come between them. The net's patches of faces are
+// emptied. The volume changes a little (see preserve_volume.hpp). A pass over the mesh and some tens to hundreds of ms
+// a place, by its faces and the scan's there. Throws WrongUsage for options out of range, Cancelled.
 MendPlacesResult mend_places(SurfaceMesh& mesh, FeatureNet& net, const ReferenceSurface& scan,
-                             const TriangleTree& scan_tree, std::span<const ShorterEdges> places,
+                             const TriangleTree* scan_tree, std::span<const ShorterEdges> places,
                              const MendPlacesOptions& options, const Progress& progress = {});
 
 }  // namespace scan2fea

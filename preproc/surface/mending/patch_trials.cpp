@@ -3,6 +3,7 @@
 #include "preproc/surface/fit/shape_fit.hpp"
 #include "preproc/surface/kernel/locate.hpp"
 #include "preproc/surface/kernel/nearest.hpp"
+#include "preproc/surface/mending/constraint_projection.hpp"
 #include "preproc/surface/sizing/split_long_edges.hpp"
 #include "quality/deviation_bound.hpp"
 #include "quality/self_intersections.hpp"
@@ -27,7 +28,10 @@ constexpr double tail_of_limit = 0.5;
 constexpr double most_lift = 300;
 // Tetrahedra share the angle between two faces, mostly by two: no sharper angles are made than these times the least
 // of triangles, nor made sharper.
-constexpr double least_dihedral_over_least_angle = 2;
+constexpr double least_dihedral_over_least_angle = 1.75;
+// Outside of the body there are no elements: faces may close on one another there three times as sharply, as they do in
+// the folds of a scan.
+constexpr double ease_outside = 3;
 // Faces beside a line of the part turn about it a little wherever they move; so much sharper it may become.
 constexpr double turning_about_line_deg = 5;
 // What samples may show of the limit: bounds are a little larger.
@@ -37,6 +41,12 @@ constexpr double sampled_limit = 0.985;
 constexpr double held_within = 0.75;
 // A face is asked at the points of a grid of so many steps a side.
 constexpr int grid = 4;
+// Points are pulled to this part of the limit, several times round, since what brings one nearer moves others; those
+// within the second part are not looked at.
+constexpr int pulls = 8;
+constexpr double pulled_within = 0.93, well_within = 0.75;
+// Folds are opened a little more than is wanted, at each time round by at most so much of an edge.
+constexpr double opened_beyond_deg = 2, longest_opening = 0.2;
 
 Vec3 centroid(const SurfaceMesh& mesh, const Triangle& t) {
   return (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3;
@@ -141,6 +151,27 @@ void for_each_sample(const SurfaceMesh& mesh, const Visit& visit) {
         if (!visit(f, a + i * u + j * v)) return;
       }
   }
+}
+
+// Where the face of the point before is near enough, no other need be asked.
+bool is_within(const SurfaceMesh& mesh, std::uint32_t face, const Vec3& p, double distance) {
+  const auto& [a, b, c] = mesh.triangles[face];
+  const Vec3 there = closest_point_on_triangle(p, mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]);
+  return (p - there).squaredNorm() <= distance * distance;
+}
+
+Location place_of(const SurfaceMesh& mesh, std::uint32_t face, const Vec3& p) {
+  const auto& [a, b, c] = mesh.triangles[face];
+  Location place{.face = face};
+  place.barycentric = nearest_in_triangle(p, mesh.vertices[a], mesh.vertices[b], mesh.vertices[c], place.clamped);
+  return place;
+}
+
+std::vector<FeatureEdge> sorted_edges(const std::vector<LineEdge>& lines) {
+  std::vector<FeatureEdge> edges;
+  for (const LineEdge& line : lines) edges.push_back(line.edge());
+  std::sort(edges.begin(), edges.end());
+  return edges;
 }
 
 }  // namespace
@@ -256,36 +287,31 @@ void Surroundings::fit(Trial& trial, double fidelity) const {
   options.lift_tail_of_diagonal = tail_of_limit * goal_.limit / fit_scan_->diagonal;
   options.most_lift = most_lift;
   options.nearest_vertex_of_scan_vertex = start_of_fit_;
-  options.constraints.assign(trial.vertices(), VertexConstraint::free);
-  for (std::size_t v = 0; v < outline_.rim.size(); ++v)
-    if (outline_.rim[v]) options.constraints[v] = VertexConstraint::fixed;
-  for (const LineEdge& e : trial.lines)
-    options.constraints[e.from] = options.constraints[e.to] = VertexConstraint::fixed;
+  for (const bool is_held : held_vertices(trial))
+    options.constraints.push_back(is_held ? VertexConstraint::fixed : VertexConstraint::free);
   optimise_shape_and_fit(trial.patch, *fit_scan_, options);
 }
 
-// Calls visit(face, edge, interior angle in degrees) for each edge between two faces of the patch, or one of it and one
-// of the surface around.
+// Calls visit(hinge, edge) for each edge between two faces of the patch, or one of it and one of the surface around.
+// The patch may move meanwhile.
 template <class Visit>
-void Surroundings::for_each_dihedral(const SurfaceMesh& patch, const Visit& visit) const {
+void Surroundings::for_each_hinge(const SurfaceMesh& patch, const Visit& visit) const {
   const std::vector<Side> sides = sorted_sides(patch);
   for (std::size_t i = 0; i < sides.size(); ++i) {
     const FeatureEdge edge = sides[i].edge;
-    const std::uint32_t f = sides[i].corner / 3, k = sides[i].corner % 3;
-    const Triangle& t = patch.triangles[f];
-    Vec3 beyond;
+    Hinge hinge{sides[i].corner / 3, sides[i].corner % 3, {}, {}};
     if (i + 1 < sides.size() && sides[i + 1].edge == edge) {
-      beyond = area_vector(patch, patch.triangles[sides[i + 1].corner / 3]);
-    } else if (i > 0 && sides[i - 1].edge == edge) {
-      continue;
+      const Triangle& beyond = patch.triangles[sides[i + 1].corner / 3];
+      hinge.apex = beyond[sides[i + 1].corner % 3];
+      hinge.beyond = area_vector(patch, beyond);
+      ++i;
     } else {
       const auto at = std::lower_bound(rim_normals_.begin(), rim_normals_.end(), edge,
                                        [](const auto& rim, const FeatureEdge& wanted) { return rim.first < wanted; });
       if (at == rim_normals_.end() || at->first != edge) continue;
-      beyond = at->second;
+      hinge.beyond = at->second;
     }
-    const Vec3 along = (patch.vertices[t[(k + 2) % 3]] - patch.vertices[t[(k + 1) % 3]]).normalized();
-    visit(f, edge, interior_angle(area_vector(patch, t), beyond, along) * 180 / std::numbers::pi);
+    visit(hinge, edge);
   }
 }
 
@@ -297,11 +323,12 @@ void Surroundings::measure_shape(Trial& trial) const {
         std::max(0.0, goal_.least_angle_deg -
                           smallest_angle_deg(patch.vertices[t[0]], patch.vertices[t[1]], patch.vertices[t[2]]));
   trial.sharpest_deg = trial.sharpest_on_line_deg = 180;
-  for_each_dihedral(patch, [&](std::uint32_t, const FeatureEdge& edge, double inside_deg) {
-    const bool on_line =
-        std::any_of(trial.lines.begin(), trial.lines.end(), [&](const LineEdge& line) { return line.edge() == edge; });
+  const std::vector<FeatureEdge> lines = sorted_edges(trial.lines);
+  for_each_hinge(patch, [&](const Hinge& hinge, const FeatureEdge& edge) {
+    const bool on_line = std::binary_search(lines.begin(), lines.end(), edge);
+    const double inside_deg = hinge.angle_deg(patch);
     double& sharpest = on_line ? trial.sharpest_on_line_deg : trial.sharpest_deg;
-    sharpest = std::min({sharpest, inside_deg, 360 - inside_deg});
+    sharpest = std::min({sharpest, inside_deg, ease_outside * (360 - inside_deg)});
   });
   if (goal_.for_shape) measure_lack(trial);
 }
@@ -309,9 +336,7 @@ void Surroundings::measure_shape(Trial& trial) const {
 // Corners and edges of the part are as sharp as the part is.
 void Surroundings::measure_lack(Trial& trial) const {
   const SurfaceMesh& patch = trial.patch;
-  std::vector<FeatureEdge> lines;
-  for (const LineEdge& line : trial.lines) lines.push_back(line.edge());
-  std::sort(lines.begin(), lines.end());
+  const std::vector<FeatureEdge> lines = sorted_edges(trial.lines);
   const auto on_line = [&](std::uint32_t a, std::uint32_t b) {
     return std::binary_search(lines.begin(), lines.end(), feature_edge(a, b));
   };
@@ -328,8 +353,8 @@ void Surroundings::measure_lack(Trial& trial) const {
         add(f, angle_deg(patch.vertices[v], patch.vertices[next], patch.vertices[last]));
     }
   }
-  for_each_dihedral(patch, [&](std::uint32_t f, const FeatureEdge& edge, double inside_deg) {
-    if (!std::binary_search(lines.begin(), lines.end(), edge)) add(f, inside_deg / 2);
+  for_each_hinge(patch, [&](const Hinge& hinge, const FeatureEdge& edge) {
+    if (!std::binary_search(lines.begin(), lines.end(), edge)) add(hinge.face, hinge.angle_deg(patch) / 2);
   });
   trial.lack = std::accumulate(of_face.begin(), of_face.end(), 0.0);
   trial.worst = static_cast<std::uint32_t>(std::max_element(of_face.begin(), of_face.end()) - of_face.begin());
@@ -340,13 +365,79 @@ bool Surroundings::keeps_shape(Trial& trial, const Trial& now) const {
     if (!(p.array() > outline_.box.low.array()).all() || !(p.array() < outline_.box.high.array()).all()) return false;
   measure_shape(trial);
   const double least_dihedral_deg = least_dihedral_over_least_angle * goal_.least_angle_deg;
-  return trial.missing_angles <= now.missing_angles &&
+  const bool keeps_angles = goal_.for_shape ? trial.lack <= now.lack : trial.missing_angles <= now.missing_angles;
+  return keeps_angles &&
          trial.sharpest_deg >= std::min(least_dihedral_deg, now.sharpest_deg) &&
          trial.sharpest_on_line_deg >= std::min(least_dihedral_deg, now.sharpest_on_line_deg) - turning_about_line_deg;
 }
 
-void Surroundings::put_on_scan(Vec3& point) const {
-  point = scan_reference_->tree().closest(point).point;
+void Surroundings::pull(Trial& trial) const {
+  SurfaceMesh& patch = trial.patch;
+  const std::vector<bool> held = held_vertices(trial);
+  const double near = pulled_within * goal_.limit;
+  const std::vector<Vec3> of_scan = scan_points_beyond(patch, well_within * goal_.limit);
+  std::vector<PatchPoint> own = own_points_beyond(patch, well_within * goal_.limit);
+  for (int round = 0; round < pulls; ++round) {
+    const std::vector<Vec3> before = patch.vertices;
+    if (goal_.for_shape) open_folds(trial, held);
+    if (!of_scan.empty()) {
+      const SurfaceMesh on = patch;
+      const TriangleTree tree(on);
+      std::uint32_t hint = 0;
+      for (const Vec3& p : of_scan) {
+        const ClosestPoint nearest = tree.closest(p, hint);
+        hint = nearest.triangle;
+        if (nearest.squared_distance > near * near) pull_point(patch, held, place_of(on, hint, nearest.point), p, near);
+      }
+    }
+    for (PatchPoint& point : own) {
+      const ClosestPoint nearest = scan_reference_->tree().closest(point_at(patch, point.place), point.scan_face);
+      point.scan_face = nearest.triangle;
+      pull_point(patch, held, point.place, nearest.point, near);
+    }
+    if (patch.vertices == before) break;
+  }
+}
+
+void Surroundings::open_folds(Trial& trial, const std::vector<bool>& held) const {
+  const double wanted_deg = 2 * goal_.least_angle_deg + opened_beyond_deg;
+  const std::vector<FeatureEdge> lines = sorted_edges(trial.lines);
+  for_each_hinge(trial.patch, [&](const Hinge& hinge, const FeatureEdge& edge) {
+    if (hinge.angle_deg(trial.patch) < wanted_deg && !std::binary_search(lines.begin(), lines.end(), edge))
+      open_hinge(trial.patch, held, hinge, wanted_deg, longest_opening * outline_.edge);
+  });
+}
+
+std::vector<Vec3> Surroundings::scan_points_beyond(const SurfaceMesh& patch, double distance) const {
+  std::vector<Vec3> beyond;
+  const TriangleTree tree(patch);
+  std::uint32_t near = 0;
+  for (const Vec3& p : to_answer_) {
+    if (is_within(patch, near, p, distance)) continue;
+    const ClosestPoint nearest = tree.closest(p, near);
+    near = nearest.triangle;
+    if (nearest.squared_distance > distance * distance) beyond.push_back(p);
+  }
+  return beyond;
+}
+
+std::vector<Surroundings::PatchPoint> Surroundings::own_points_beyond(const SurfaceMesh& patch, double distance) const {
+  std::vector<PatchPoint> beyond;
+  std::uint32_t hint = scan_reference_->tree().leaf_order().front();
+  for_each_sample(patch, [&](std::uint32_t f, const Vec3& p) {
+    const ClosestPoint nearest = scan_reference_->tree().closest(p, hint);
+    hint = nearest.triangle;
+    if (nearest.squared_distance > distance * distance) beyond.push_back({place_of(patch, f, p), hint});
+    return true;
+  });
+  return beyond;
+}
+
+std::vector<bool> Surroundings::held_vertices(const Trial& trial) const {
+  std::vector<bool> held(trial.vertices(), false);
+  std::copy(outline_.rim.begin(), outline_.rim.end(), held.begin());
+  for (const LineEdge& e : trial.lines) held[e.from] = held[e.to] = true;
+  return held;
 }
 
 bool Surroundings::is_folded(Trial& trial, const Trial& now) const {
@@ -369,10 +460,7 @@ void Surroundings::sample_deviation(Trial& trial, double useful) const {
   const TriangleTree tree(patch);
   std::uint32_t near = 0;
   for (const Vec3& p : to_answer_) {
-    // Where the face of the point before is near enough, no other need be asked.
-    const auto& [a, b, c] = patch.triangles[near];
-    const Vec3 there = closest_point_on_triangle(p, patch.vertices[a], patch.vertices[b], patch.vertices[c]);
-    if ((p - there).squaredNorm() <= limit * limit) continue;
+    if (is_within(patch, near, p, limit)) continue;
     const ClosestPoint nearest = tree.closest(p, near);
     near = nearest.triangle;
     if (is_useless(near, nearest.squared_distance)) return;

@@ -4,6 +4,7 @@
 #include "preproc/mesh/surface_mesh.hpp"
 #include "preproc/surface/features/feature_net.hpp"
 #include "preproc/surface/fit/reference_surface.hpp"
+#include "preproc/surface/kernel/locate.hpp"
 #include "quality/deviation_bound.hpp"
 
 #include <cstddef>
@@ -19,9 +20,6 @@ struct PatchGoal {
   double fidelity = 0;            // residual that costs as much as F(eta) = 1 (see shape_fit.hpp), model units
   double least_angle_deg = 35;    // smaller angles are not made, nor made smaller
   std::size_t most_vertices = 0;  // that may be inserted
-  // Where nothing else helps, vertices are inserted on the scan and no fit follows: around a thorn fits go astray, and
-  // these lead them. Else they would only cost shape.
-  bool may_place = false;
   // The shape is to gain, with the deviation kept, instead of the other way round: angles of triangles, and halves of
   // those between faces, below `least_angle_deg` are what lacks.
   bool for_shape = false;
@@ -41,7 +39,7 @@ struct Trial {
   SurfaceMesh patch{};
   std::vector<LineEdge> lines{};
   double missing_angles = 0;  // degrees
-  // The sharpest angle between two faces, inside or outside of the body: elsewhere, and at edges on lines.
+  // The sharpest angle between two faces, inside of the body or, eased, outside: elsewhere, and at edges on lines.
   double sharpest_deg = 180, sharpest_on_line_deg = 180;
   // Per face of the patch, of both sides: the scan's points belong to the face nearest to them.
   std::vector<double> deviation{};
@@ -68,7 +66,10 @@ class Surroundings {
   // Shape and fit, see shape_fit.hpp; residuals of `fidelity` cost as much as F(eta) = 1.
   void fit(Trial& trial, double fidelity) const;
 
-  void put_on_scan(Vec3& point) const;
+  // Brings points of both sides that are too far, or nearly, within the limit, and opens folds where shape is the goal,
+  // by the least moves of the vertices there (see constraint_projection.hpp): without a word on the triangles' shape,
+  // which such small moves change little. Not guaranteed: that all comes out.
+  void pull(Trial& trial) const;
 
   // All but the deviation. False where the trial leaves the box or is worse in shape than `now`: smaller angles than
   // the least, or faces that close on one another more sharply than they did and than tetrahedra can bear.
@@ -95,9 +96,18 @@ class Surroundings {
   std::vector<bool> left_to_patch(const std::vector<Vec3>& points, const SurfaceMesh& patch) const;
   void find_rim_normals(const SurfaceMesh& patch);
 
+  struct PatchPoint {
+    Location place;
+    std::uint32_t scan_face;  // near it
+  };
+  std::vector<Vec3> scan_points_beyond(const SurfaceMesh& patch, double distance) const;
+  std::vector<PatchPoint> own_points_beyond(const SurfaceMesh& patch, double distance) const;
+  // On the rim, or on lines.
+  std::vector<bool> held_vertices(const Trial& trial) const;
   SurfaceMesh with_frozen(const SurfaceMesh& patch) const;
   template <class Visit>
-  void for_each_dihedral(const SurfaceMesh& patch, const Visit& visit) const;
+  void for_each_hinge(const SurfaceMesh& patch, const Visit& visit) const;
+  void open_folds(Trial& trial, const std::vector<bool>& held) const;
   void measure_shape(Trial& trial) const;
   void measure_lack(Trial& trial) const;
   void set_merit(Trial& trial) const;

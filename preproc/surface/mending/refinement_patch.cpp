@@ -20,9 +20,7 @@ using Index = HalfedgeMesh::Index;
 constexpr int most_steps = 6;
 // What a step must bring the merit down to. The merit is a fourth power of distances: 0.88 is 3 % less of them.
 constexpr double least_gain = 0.88;
-// Fits of a trial, one after the other, each over the goal's fidelity.
-constexpr std::array<double, 2> stiffnesses{0.5, 1};
-// A face a quarter of the limit beyond it: so far off a softer fit may be that a stiffer one brings back.
+// A face a quarter of the limit beyond it: so far off a fit may leave what can be pulled.
 constexpr double promising = 0.25 * 0.25 * 0.25 * 0.25;
 // Where trials halve the merit, no dearer ones are made in that step.
 constexpr double good_gain = 0.5;
@@ -90,7 +88,7 @@ std::vector<LineEdge> lines_within(const SurfaceMesh& patch, const std::vector<s
   return within;
 }
 
-// Edges inside of the patch: of a face, and the others of the faces across them, the longest first.
+// Edges inside of the patch: of a face, and the three longest others of the faces across them, the longest first.
 using EdgesAround = std::array<std::vector<Index>, 2>;
 
 EdgesAround edges_around(const HalfedgeMesh& mesh, Index face) {
@@ -112,6 +110,7 @@ EdgesAround edges_around(const HalfedgeMesh& mesh, Index face) {
   for (std::vector<Index>& group : edges)
     std::stable_sort(group.begin(), group.end(),
                      [&](Index a, Index b) { return squared_length(a) > squared_length(b); });
+  edges[1].resize(std::min<std::size_t>(3, edges[1].size()));
   return edges;
 }
 
@@ -190,21 +189,18 @@ class Step {
   Step(const Trial& now, const Surroundings& surroundings, const PatchGoal& goal)
       : now_(now), surroundings_(surroundings), goal_(goal) {}
 
-  // Tries a state, with a fit that shape has much to say in, then with stiffer ones. True where it has reached the
-  // goal, so that nothing else need be tried.
+  // Tries a state: fitted, and where that leaves a little to be done, pulled. True where it has reached the goal, so
+  // that nothing else need be tried.
   bool reaches(Trial trial) {
     if (surroundings_.is_folded(trial, now_)) return false;
-    for (const double stiffness : stiffnesses) {
-      surroundings_.fit(trial, goal_.fidelity / stiffness);
-      if (!may_gain(trial)) return false;
-      if (has_reached()) return true;
-    }
-    return false;
+    surroundings_.fit(trial, goal_.fidelity);
+    if (!may_gain(trial) && !goal_.for_shape) return false;
+    return has_reached() || reaches_pulled(std::move(trial));
   }
 
-  // The same for a state whose last vertex is put on the scan, the others being where they are.
-  bool reaches_placed(Trial trial) {
-    surroundings_.put_on_scan(trial.patch.vertices.back());
+  // The same by the least moves alone.
+  bool reaches_pulled(Trial trial) {
+    surroundings_.pull(trial);
     return may_gain(trial) && has_reached();
   }
 
@@ -215,13 +211,12 @@ class Step {
   double score(const Trial& trial) const { return score_of(trial, goal_); }
   bool has_reached() const { return best_ && score(*best_) == 0; }
 
-  // Whether a state is sound and not much farther, so that stiffer fits may help it; the best of those that gain is
-  // kept. Where the shape is the goal, a stiffer fit may also bring back what the softer one took away.
+  // Whether a state is sound and not much farther; the best of those that gain is kept.
   bool may_gain(Trial& trial) {
     if (!surroundings_.keeps_shape(trial, now_)) return false;
     const double useful = std::max(now_.merit, promising);
     surroundings_.sample_deviation(trial, useful);
-    if (trial.merit > useful) return goal_.for_shape;
+    if (trial.merit > useful) return false;
     if (trial.merit > now_.merit) return true;
     const auto gains_over = [&](const Trial& other) { return score(trial) <= least_gain * score(other); };
     if (!gains_over(best_ ? *best_ : now_) || !surroundings_.is_clear(trial)) return true;
@@ -241,7 +236,7 @@ class Step {
 std::optional<Trial> next_state(const Trial& now, const Surroundings& surroundings, const FeatureNet& net,
                                 const PatchGoal& goal, std::size_t room) {
   Step step(now, surroundings, goal);
-  if (step.reaches(now) || step.gain() <= good_gain) return step.take();
+  if (step.reaches_pulled(now) || step.reaches(now) || step.gain() <= good_gain) return step.take();
   const HalfedgeMesh mesh(now.patch);
   const EdgesAround edges = edges_around(mesh, now.worst);
   for (const std::vector<Index>& group : edges) {
@@ -260,12 +255,10 @@ std::optional<Trial> next_state(const Trial& now, const Surroundings& surroundin
     if (step.gain() <= good_gain) return step.take();
   }
   if (room >= edges[0].size() && step.reaches(with_split_edges(mesh, edges[0], now, net))) return step.take();
-  if (!goal.may_place || step.gain() < 1) return step.take();
-  for (const std::vector<Index>& group : edges)
-    for (const Index h : group) {
-      Trial split = with_split_edges(mesh, {&h, 1}, now, net);
-      if (split.lines.size() == now.lines.size() && step.reaches_placed(std::move(split))) return step.take();
-    }
+  // Around a thorn fits go astray, and new vertices that are pulled to its tip lead them.
+  if (step.gain() < 1) return step.take();
+  for (const Index h : edges[0])
+    if (step.reaches_pulled(with_split_edges(mesh, {&h, 1}, now, net))) return step.take();
   return step.take();
 }
 
@@ -346,12 +339,16 @@ PatchOutcome RefinementPatch::shorten(const SurfaceMesh& mesh, const std::vector
   surroundings.sample_deviation(first, std::numeric_limits<double>::infinity());
   Trial now = with_shorter_edges(first, outline_, net, place, goal.most_vertices);
   if (now.vertices() == first.vertices()) return {};
-  surroundings.fit(now, goal.fidelity);
+  Trial fitted = now;
+  surroundings.fit(fitted, goal.fidelity);
+  if (surroundings.keeps_shape(fitted, first)) now = std::move(fitted);
   // Long edges beside short ones make angles that flips and fits can mend.
   surroundings.keeps_shape(now, now);
   surroundings.sample_deviation(now, std::numeric_limits<double>::infinity());
   now = after_steps(std::move(now), surroundings, net, goal);
-  if (!surroundings.keeps_shape(now, first) || !surroundings.is_clear(now) || !holds(first, now, surroundings))
+  // What is a little too far can be mended by the next patches.
+  const bool is_near = holds(first, now, surroundings) || (!goal.for_shape && now.merit < promising);
+  if (!is_near || now.lack > first.lack || !surroundings.keeps_shape(now, first) || !surroundings.is_clear(now))
     return {};
   take(std::move(now));
   return {.improved = true, .reached = true};

@@ -11,7 +11,6 @@
 #include "preproc/surface/mending/local_moves.hpp"
 #include "preproc/surface/mending/local_refinement.hpp"
 #include "preproc/surface/mending/mend_surface.hpp"
-#include "preproc/surface/mending/wedges.hpp"
 #include "preproc/surface/simplification/scan_by_shape.hpp"
 #include "preproc/surface/sizing/shape_lengths.hpp"
 #include "preproc/surface/sizing/shorter_edges.hpp"
@@ -416,15 +415,6 @@ void lower_worst(Candidate& candidate, Effort effort, const Progress& progress) 
   SurfaceMesh refined = candidate.mesh;
   refine_worst(refined, scan.reference(), candidate.fit.largest_distance_of_face, options, progress);
   if (preserve_volume_clear(refined, scan.mesh)) candidate.mesh = std::move(refined);
-}
-
-bool open_wedges(Candidate& candidate, const SimplifyOptions& options) {
-  const PreparedScan& scan = *candidate.scan;
-  if (!options.for_tetrahedra || options.method != SimplifyMethod::lattice || scan.has_creases()) return false;
-  return open_wedges(candidate.mesh, scan.reference(),
-                     {.keep_volume = scan.is_closed(),
-                      .constraints = held_lines(candidate.net, candidate.mesh.vertices.size())})
-      .opened();
 }
 
 }  // namespace scan2fea

@@ -60,8 +60,4 @@ Candidate make_surface_by_shape(const PreparedScan& scan, const SizingOptions& s
 // on scans with features.
 void lower_worst(Candidate& candidate, Effort effort, const Progress& progress);
 
-// What bounds the tetrahedra's angles, where that is asked for (see wedges.hpp); what is sharp in the scan stays so.
-// Whether something was opened.
-bool open_wedges(Candidate& candidate, const SimplifyOptions& options);
-
 }  // namespace scan2fea

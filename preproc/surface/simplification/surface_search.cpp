@@ -44,7 +44,7 @@ constexpr double mended_deg = 30;
 constexpr double share_of_many = 0.1;
 // With more places another surface costs less than the mending of each: over the triangles where their shape is bad, as
 // a number where edges are to be shorter around, which takes larger patches.
-constexpr double few_bad_places = 0.01;
+constexpr double few_bad_places = 0.03;
 constexpr std::size_t few_coarse_places = 3;
 
 // Wanted with fewer triangles than this, a part without its edges stands for nothing any more: edges go before angles.
@@ -52,7 +52,7 @@ constexpr double few_triangles_of_part = 1000;
 
 // The share of faces too far that is left to the mending of places: more are cheaper mended by other lengths, all at
 // once. The second is for the last surface, when there is no other way.
-constexpr double few_beyond = 0.06, most_beyond = 0.15;
+constexpr double few_beyond = 0.12, most_beyond = 0.15;
 
 // Where triangles as large as the deviation allows are too large for the part's edges, smaller ones keep their shape.
 // The bound is where isotropic remeshing with kept edges ends (CGAL: 1.18 to 1.21 on plates, cubes and cylinders).
@@ -228,7 +228,6 @@ SurfaceSearch::Trial SurfaceSearch::judged(Candidate candidate, const Progress& 
     judge_deviation(made, progress);
   else if (made.candidate.method == SimplifyMethod::lattice)
     lower_worst(made.candidate, options_.effort, progress);
-  open_wedges_within(made);
   mend_shape(made, progress);
   made.mean_edge_ratio = measure_triangles(made.candidate.mesh).edge_ratio.mean;
   const bool few = made.candidate.faces() < many_triangles && options_.for_tetrahedra && !wanted_.deviation;
@@ -265,7 +264,7 @@ void SurfaceSearch::note_deviation(Trial& made, const DeviationBound& bound) con
 void SurfaceSearch::bring_within(Trial& made, const Progress& progress) const {
   // The shift that restores the volume takes a little of the deviation; where it takes more, once more with more left.
   constexpr int trials = 3;
-  constexpr double least_angle_deg = 28;
+  constexpr double least_angle_deg = 30;
   // What the patches' fits must follow, over the deviation; no looser than mending is (MendOptions), and not so tight
   // that shape has no say.
   constexpr double fidelity = 0.3, tightest = 1e-4, loosest = 1.6e-3;
@@ -287,16 +286,6 @@ void SurfaceSearch::bring_within(Trial& made, const Progress& progress) const {
   }
 }
 
-// A deviation that was asked for comes before the tetrahedra.
-void SurfaceSearch::open_wedges_within(Trial& made) const {
-  Trial opened = made;
-  if (!open_wedges(opened.candidate, options_)) return;
-  if (wanted_.deviation)
-    note_deviation(opened, bound_deviation(opened.candidate.mesh, opened.candidate.scan->deviation_reference(),
-                                           {.limit = wanted_.deviation->distance}));
-  if (!holds(made) || holds(opened)) made = std::move(opened);
-}
-
 // Few bad triangles, folds and wedges are mended where they are. Not where nothing else asks for the tree of the scan
 // that it takes: on a large one it would be the peak of the memory.
 void SurfaceSearch::mend_shape(Trial& made, const Progress& progress) const {
@@ -306,7 +295,7 @@ void SurfaceSearch::mend_shape(Trial& made, const Progress& progress) const {
   if (bad.empty() || made.candidate.method != SimplifyMethod::lattice ||
       static_cast<double>(bad.size()) > few_bad_places * static_cast<double>(made.candidate.faces()))
     return;
-  mend_in_place(made, bad, MendFor::shape, progress);
+  mend_in_place(made, without_overlaps(bad), MendFor::shape, progress);
 }
 
 // A deviation that was asked for comes first. Whether some place was mended.
@@ -321,7 +310,7 @@ bool SurfaceSearch::mend_in_place(Trial& made, std::span<const ShorterEdges> pla
       wanted_.deviation ? (1 - for_volume) * wanted_.deviation->distance : made.candidate.fit.largest_distance;
   options.least_angle_deg = mended_deg;
   const MendPlacesResult result = mend_places(mesh, mended.candidate.net, scan.reference(),
-                                              scan.deviation_reference().tree(), places, options, progress);
+                                              &scan.deviation_reference().tree(), places, options, progress);
   if (result.mended == 0) return false;
   if (scan.is_closed()) preserve_volume_clear(mesh, scan.mesh, held_lines(mended.candidate.net, mesh.vertices.size()));
   if (wanted_.deviation)

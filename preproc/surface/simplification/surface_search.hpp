@@ -72,7 +72,6 @@ class SurfaceSearch {
   void judge_deviation(Trial& made, const Progress& progress) const;
   void note_deviation(Trial& made, const DeviationBound& bound) const;
   void bring_within(Trial& made, const Progress& progress) const;
-  void open_wedges_within(Trial& made) const;
   void mend_shape(Trial& made, const Progress& progress) const;
   bool mend_in_place(Trial& made, std::span<const ShorterEdges> places, MendFor reason, const Progress& progress) const;
   bool holds(const Trial& made) const;
