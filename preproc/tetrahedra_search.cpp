@@ -2,6 +2,7 @@
 
 #include "preproc/mesh/error.hpp"
 #include "preproc/surface/sizing/shorter_edges.hpp"
+#include "preproc/volume/boundary_relocation.hpp"
 #include "preproc/volume/poor_elements.hpp"
 #include "quality/tetrahedron_measures.hpp"
 
@@ -14,14 +15,17 @@ namespace {
 
 // Elements below good_deg are poor: on surfaces without thin places the optimisation reaches 24.7 to 31 degrees
 // (tests/benchmark/README.md). Where the surface itself allows less, of_bound of that will do, but below least_deg the
-// surface is itself to be mended if it can be.
-constexpr double good_deg = 24, of_bound = 0.9, least_deg = 20;
+// surface is itself to be mended if it can be. To move vertices of the surface along it costs so little that it is done
+// below moved_deg.
+constexpr double good_deg = 24, moved_deg = 28, of_bound = 0.9, least_deg = 20;
 // A share of all elements; with more the surface is too coarse as a whole.
 constexpr double many_poor = 0.1;
 // A first surface of more takes too long to make again.
 constexpr std::size_t most_triangles = 50000;
 // No more triangles than these, over the first surface's or absolute.
 constexpr double most_growth = 2, most_of_small = 12000;
+// Of what lacks to moved_deg: vertices that gained so much by moving are moved again.
+constexpr double worth_again = 0.25;
 // A smaller gain is not worth other triangles than the ones that were told.
 constexpr double worth_it_deg = 1;
 
@@ -29,8 +33,8 @@ double smallest_dihedral(const FilledSurface& made) {
   return measure_tetrahedra(made.filled.mesh).min_dihedral_deg;
 }
 
-bool is_good(double angle, const FilledSurface& made) {
-  return angle >= std::min(good_deg, std::max(of_bound * made.filled.bound.min_dihedral_deg, least_deg));
+bool is_good(double angle, const FilledSurface& made, double wanted_deg) {
+  return angle >= std::min(wanted_deg, std::max(of_bound * made.filled.bound.min_dihedral_deg, least_deg));
 }
 
 std::vector<PoorElement> poor_elements(const FilledSurface& made) {
@@ -59,7 +63,7 @@ bool worth_renewing(const SimplifyOptions& simplification, const TetrahedralizeO
       tetrahedralization.time_limit)
     return false;
   if (simplification.effort != Effort::high && made.surface.triangles.size() > most_triangles) return false;
-  return !is_good(smallest_dihedral(made), made) && can_be_mended(poor_elements(made), made);
+  return !is_good(smallest_dihedral(made), made, moved_deg);
 }
 
 RenewalResult renew_where_poor(Simplification& search, const SimplifyOptions& simplification,
@@ -71,13 +75,24 @@ RenewalResult renew_where_poor(Simplification& search, const SimplifyOptions& si
   const double most = std::max(most_growth * static_cast<double>(made.surface.triangles.size()), most_of_small);
   FilledSurface latest = made;
   result.made = std::move(made);
-  while (result.rounds < most_rounds && !is_good(result.min_dihedral_after_deg, result.made)) {
+  int ways_tried = 0;  // since a surface that is better, or another one
+  while (result.rounds < most_rounds && !is_good(result.min_dihedral_after_deg, result.made, moved_deg)) {
+    const bool is_poor = !is_good(result.min_dihedral_after_deg, result.made, good_deg);
     const std::vector<PoorElement> poor = poor_elements(latest);
-    if (!can_be_mended(poor, latest)) break;
-    const std::optional<SimplifyResult> simplified =
-        search.run_again(shorter_around(poor), most, latest.surface, progress);
-    if (!simplified) break;
-    ++result.rounds;
+    // Along the surface first, which costs no distance from the scan.
+    const int ways = is_poor && search.way_off() > 0 ? 2 : 1;
+    std::optional<SimplifyResult> simplified;
+    for (; !simplified && ways_tried < ways; ++ways_tried)
+      simplified = search.run_moved(relocate_boundary(latest.filled.mesh, latest.surface, search.held(),
+                                                      ways_tried == 0 ? 0 : search.way_off(), moved_deg),
+                                    latest.surface);
+    if (!simplified) {
+      if (!is_poor || !can_be_mended(poor, latest)) break;
+      simplified = search.run_again(shorter_around(poor), most, latest.surface, progress);
+      if (!simplified) break;
+      ++result.rounds;
+      ways_tried = 0;
+    }
     try {
       latest.simplified = *simplified;
       latest.filled = tetrahedralize(latest.surface, tetrahedralization, progress);
@@ -86,6 +101,8 @@ RenewalResult renew_where_poor(Simplification& search, const SimplifyOptions& si
     }
     const double angle = smallest_dihedral(latest);
     if (angle < result.min_dihedral_after_deg + worth_it_deg) continue;
+    if (angle - result.min_dihedral_after_deg > worth_again * (moved_deg - result.min_dihedral_after_deg))
+      ways_tried = 0;
     result.min_dihedral_after_deg = angle;
     result.made = latest;
   }

@@ -1,6 +1,5 @@
-// Poor elements mended by another surface. What limits tetrahedra whose boundary stays is the surface: thin folds and
-// walls that only show when it is filled. There its edges are made shorter, and the whole is simplified and filled
-// anew.
+// Poor elements mended. What limits tetrahedra whose boundary stays is the surface: thin folds and walls that only show
+// when it is filled. There its vertices are moved, or its edges made shorter, and it is filled anew.
 #pragma once
 
 #include "preproc/mesh/progress.hpp"
@@ -16,10 +15,9 @@ struct FilledSurface {
   TetrahedralizeResult filled;
 };
 
-// Whether elements came out poor, with a dihedral angle below 24 degrees or 0.9 of what the surface allows (but at
-// least 20), and it is likely and affordable that another surface mends them: not with Effort::low, the `collapse`
-// method, a time limit or, unless the effort is high, above 50,000 triangles; nor where of 6,000 triangles or more a
-// tenth of all elements is poor.
+// Whether elements came out with a dihedral angle below 28 degrees or 0.9 of what the surface allows (but at least 20),
+// and it is affordable to do something about them: not with Effort::low, the `collapse` method, a time limit or, unless
+// the effort is high, above 50,000 triangles.
 bool worth_renewing(const SimplifyOptions& simplification, const TetrahedralizeOptions& tetrahedralization,
                     const FilledSurface& made);
 
@@ -31,9 +29,11 @@ struct RenewalResult {
   bool gained() const { return min_dihedral_after_deg > min_dihedral_before_deg; }
 };
 
-// `made` came of `search` with these options. A renewed one takes its place where its smallest dihedral angle is larger
-// by a degree, until none is poor or the search gives no other surface. Each round costs a surface, or the mending of
-// its places, and its filling; four at most, and with Effort::high eight. At most twice as many triangles, or 12,000.
+// `made` came of `search` with these options. Vertices of the surface go along it to where the elements around them are
+// best, then, while some are below 24 degrees, off it; then edges there are made shorter, by another surface (but not
+// where of 6,000 triangles or more a tenth of all elements is poor). Another mesh takes the first one's place where its
+// smallest dihedral angle is larger by a degree, until none is poor or the search gives no other surface. Each costs a
+// filling; four other surfaces at most, and with Effort::high eight, with at most twice as many triangles, or 12,000.
 // Throws Cancelled. The same result for any number of threads. Not guaranteed: a gain.
 RenewalResult renew_where_poor(Simplification& search, const SimplifyOptions& simplification,
                                const TetrahedralizeOptions& tetrahedralization, FilledSurface made,

@@ -46,19 +46,6 @@ double sharpest_edge_deg(const SurfaceMesh& mesh) {
   return sharpest;
 }
 
-double mean_edge_within(const SurfaceMesh& mesh, const Ball& where) {
-  double sum = 0;
-  int count = 0;
-  for (const Triangle& t : mesh.triangles)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3 &a = mesh.vertices[t[k]], &b = mesh.vertices[t[(k + 1) % 3]];
-      if ((0.5 * (a + b) - where.centre).norm() > where.radius) continue;
-      sum += (b - a).norm();
-      ++count;
-    }
-  return sum / count;
-}
-
 void expect_sound(const SurfaceMesh& mesh) {
   const auto validity = check_validity(mesh);
   EXPECT_TRUE(validity.closed());
@@ -115,27 +102,6 @@ TEST_F(MendPlaces, FoldsAreOpened) {
   expect_sound(mesh);
 }
 
-TEST_F(MendPlaces, EdgesBecomeAsShortAsAskedFor) {
-  SurfaceMesh mesh = even_;
-  const ShorterEdges place{{tip, 0.25}, 0.5};
-  const double before = mean_edge_within(mesh, place.where);
-  const MendPlacesResult result = mend(mesh, place, {.reason = MendFor::size, .limit = limit});
-  EXPECT_EQ(result.mended, 1U);
-  EXPECT_LT(mean_edge_within(mesh, place.where), 0.7 * before);
-  EXPECT_GE(least_angle_deg(mesh), 30);
-  EXPECT_EQ(mesh.vertices.size(), even_.vertices.size() + result.inserted);
-  EXPECT_LE(bound_deviation(mesh, scan_, {.limit = limit}).upper(), limit);
-  expect_sound(mesh);
-}
-
-TEST_F(MendPlaces, InsertsNoMoreThanAllowed) {
-  SurfaceMesh mesh = even_;
-  const MendPlacesResult result =
-      mend(mesh, {{tip, 0.25}, 0.5}, {.reason = MendFor::size, .limit = limit, .most_vertices = 3});
-  EXPECT_LE(result.inserted, 3U);
-  expect_sound(mesh);
-}
-
 TEST_F(MendPlaces, LeavesWhatLacksNothing) {
   SurfaceMesh mesh = even_;
   const MendPlacesResult result = mend(mesh, {{tip, 0.25}, 0.5}, {.limit = limit});
@@ -149,23 +115,6 @@ TEST_F(MendPlaces, RefusesOptionsOutOfRange) {
   SurfaceMesh mesh = even_;
   EXPECT_THROW(mend(mesh, {{tip, 0.25}, 0.5}, {.limit = 0}), WrongUsage);
   EXPECT_THROW(mend(mesh, {{tip, 0.25}, 0.5}, {.limit = 1, .least_angle_deg = 60}), WrongUsage);
-}
-
-// The other side of a wall is another place.
-TEST(MendPlacesOfAWall, OneSideOnlyIsShortened) {
-  const SurfaceMesh wall = analytic::box({4, 4, 0.8}, 0.4), scan = analytic::box({4, 4, 0.8}, 0.2);
-  SurfaceMesh mesh = wall;
-  FeatureNet none;
-  const ShorterEdges place{{{2, 2, 0.8}, 0.9}, 0.6};
-  const MendPlacesResult result =
-      mend_places(mesh, none, ReferenceSurface(scan), nullptr, {&place, 1}, {.reason = MendFor::size, .limit = 0.02});
-  EXPECT_EQ(result.mended, 1U);
-  EXPECT_GT(result.inserted, 0U);
-  expect_sound(mesh);
-  for (std::size_t v = 0; v < wall.vertices.size(); ++v)
-    if (wall.vertices[v].z() < 0.4) {
-      EXPECT_EQ(mesh.vertices[v], wall.vertices[v]);
-    }
 }
 
 }  // namespace

@@ -4,13 +4,14 @@
 #include "preproc/surface/kernel/adjacency.hpp"
 #include "preproc/surface/mending/mend_patches.hpp"
 
+#include <limits>
 #include <string>
 
 namespace scan2fea {
 namespace {
 
-// Of faces around those of the place: they hold the change of lengths, and what moves to make room. Where it cannot be
-// mended as it is, edges are made shorter in a larger one.
+// Of faces around those of the place: they hold what moves to make room. Where it cannot be mended as it is, edges are
+// made shorter, with more faces for the change of lengths.
 constexpr int rings_moved = 1, rings_shortened = 2;
 
 void check(const MendPlacesOptions& options) {
@@ -53,19 +54,15 @@ MendPlacesResult mend_places(SurfaceMesh& mesh, FeatureNet& net, const Reference
   goal.limit = options.limit;
   goal.fidelity = options.fidelity_of_diagonal * scan.diagonal;
   goal.least_angle_deg = options.least_angle_deg;
-  goal.most_vertices = options.most_vertices;
+  goal.most_vertices = std::numeric_limits<std::size_t>::max();
   goal.for_shape = true;
   PatchMender mender(mesh, net, scan, scan_tree);
   const VertexStars stars(mesh);
   std::vector<PatchPlace> left;
   for (const ShorterEdges& place : places)
     left.push_back({vertices_of_place(mesh, stars, place.where), options.limit, place});
-  if (options.reason == MendFor::shape) {
-    left = mender.mend(std::move(left), rings_moved, Mending::improve, goal, progress);
-    left = mender.mend(std::move(left), rings_shortened, Mending::shorten, goal, progress);
-  } else {
-    left = mender.mend(std::move(left), rings_moved, Mending::shorten, goal, progress);
-  }
+  left = mender.mend(std::move(left), rings_moved, Mending::improve, goal, progress);
+  left = mender.mend(std::move(left), rings_shortened, Mending::shorten, goal, progress);
   const PatchChanges changes = mender.take_changes();
   return {changes.patches, changes.inserted, left.size()};
 }

@@ -1,12 +1,10 @@
 // Mends places of a made surface where they are, each by a patch (refinement_patch.hpp) whose rim stays: instead of
 // another lattice of the whole.
 //
-// For shape: folds are opened, edges flipped and split and vertices fitted until no angle of a triangle, and no half of
-// an angle between two faces, which bounds that of tetrahedra, is below the least; where that is in vain, with shorter
-// edges. For size: edges are split until they are as short as is asked for, as
-// elements across a wall or poor tetrahedra want them, with lengths graded to the rim, and the shape then mended. A
-// patch is kept only where nothing crosses, no angle of triangles and none between faces gets worse, and the deviation
-// stays within the limit or no larger than it was.
+// Folds are opened, edges flipped and split and vertices fitted until no angle of a triangle, and no half of an angle
+// between two faces, which bounds that of tetrahedra, is below the least; where that is in vain, with shorter edges. A
+// patch is kept only where nothing crosses, angles are better as a whole, none between faces gets worse, and the
+// deviation stays within the limit or no larger than it was.
 #pragma once
 
 #include "preproc/mesh/progress.hpp"
@@ -16,22 +14,17 @@
 #include "quality/triangle_tree.hpp"
 
 #include <cstddef>
-#include <limits>
 #include <span>
 #include <vector>
 
 namespace scan2fea {
 
-enum class MendFor { shape, size };
-
 struct MendPlacesOptions {
-  MendFor reason = MendFor::shape;
   double limit = 0;  // of the deviation, two-sided, model units; above 0. A patch that was farther gets no farther.
   // See ShapeFitOptions.
   double fidelity_of_diagonal = 0.0016;
   // Of triangles, and of halves of the angles between faces, but for those between lines of the part; in (0, 60).
   double least_angle_deg = 30;
-  std::size_t most_vertices = std::numeric_limits<std::size_t>::max();  // inserted; each makes two triangles more
 };
 
 struct MendPlacesResult {

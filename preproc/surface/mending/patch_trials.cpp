@@ -366,8 +366,7 @@ bool Surroundings::keeps_shape(Trial& trial, const Trial& now) const {
   measure_shape(trial);
   const double least_dihedral_deg = least_dihedral_over_least_angle * goal_.least_angle_deg;
   const bool keeps_angles = goal_.for_shape ? trial.lack <= now.lack : trial.missing_angles <= now.missing_angles;
-  return keeps_angles &&
-         trial.sharpest_deg >= std::min(least_dihedral_deg, now.sharpest_deg) &&
+  return keeps_angles && trial.sharpest_deg >= std::min(least_dihedral_deg, now.sharpest_deg) &&
          trial.sharpest_on_line_deg >= std::min(least_dihedral_deg, now.sharpest_on_line_deg) - turning_about_line_deg;
 }
 

@@ -208,6 +208,20 @@ std::optional<SimplifyResult> Simplification::run_again(std::span<const ShorterE
   return state_->result(std::move(*made), surface);
 }
 
+std::optional<SimplifyResult> Simplification::run_moved(const std::vector<Vec3>& places, SurfaceMesh& surface) {
+  std::optional<Candidate> moved = state_->search->run_moved(places);
+  if (!moved) return {};
+  return state_->result(std::move(*moved), surface);
+}
+
+std::vector<bool> Simplification::held() const {
+  return state_->search->held();
+}
+
+double Simplification::way_off() const {
+  return state_->search->way_off();
+}
+
 SimplifyResult simplify(SurfaceMesh& mesh, const SimplifyOptions& options, const Progress& progress) {
   SurfaceMesh surface;
   SimplifyResult result = Simplification(mesh, options).run(surface, progress);

@@ -39,6 +39,14 @@ class Simplification {
   std::optional<SimplifyResult> run_again(std::span<const ShorterEdges> places, double most_triangles,
                                           SurfaceMesh& surface, const Progress& progress = {});
 
+  // After `run`: the last surface with its vertices at these places, or as far towards them as nothing meets, and the
+  // scan's volume. Nothing where it would lose a deviation that was asked for.
+  std::optional<SimplifyResult> run_moved(const std::vector<Vec3>& places, SurfaceMesh& surface);
+  // Vertices of the last surface that are to stay, since they stand for lines of the scan.
+  std::vector<bool> held() const;
+  // How far its other vertices may go off it: as far as it is from the scan, where no deviation was asked for.
+  double way_off() const;
+
  private:
   struct State;
   std::unique_ptr<State> state_;

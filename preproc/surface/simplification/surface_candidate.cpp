@@ -356,9 +356,10 @@ Candidate make_surface(const PreparedScanPointer& scan, const SizingOptions& siz
   if (!failed) return candidate;
   if (scan->has_creases()) candidate = with_fewer_creases(std::move(candidate), sizing, plan, progress);
   if (!candidate.failure.empty()) {
-    std::string reason = std::move(candidate.failure);
-    candidate = by_contraction(candidate.scan, sizing, plan, progress);
-    candidate.fallback_reason = std::move(reason);
+    Candidate contracted = by_contraction(candidate.scan, sizing, plan, progress);
+    contracted.fallback_reason = std::move(candidate.failure);
+    contracted.failed_at = std::move(candidate.failed_at);
+    candidate = std::move(contracted);
   }
   refuse_failed(candidate, sizing.triangles);
   return candidate;

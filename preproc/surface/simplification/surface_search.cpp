@@ -3,6 +3,7 @@
 #include "preproc/mesh/error.hpp"
 #include "preproc/surface/features/feature_selection.hpp"
 #include "preproc/surface/fit/preserve_volume.hpp"
+#include "preproc/surface/kernel/clear_moves.hpp"
 #include "preproc/surface/mending/local_refinement.hpp"
 #include "preproc/surface/simplification/deviation_at_scan.hpp"
 #include "preproc/surface/simplification/error_sizing.hpp"
@@ -18,7 +19,7 @@ namespace {
 
 // Of triangles that all together may be made, over those that were wanted, or those of the first surface.
 constexpr double most_work = 5;
-// A small part may cost so many whatever was wanted: they cost nothing.
+// A small part may cost so many whatever was wanted: they cost nothing. As many more where its user asks again.
 constexpr double work_for_small = 50000;
 
 // In one surface, over those that were wanted. A small part may have 8,000, but not more than forty times as many: who
@@ -42,10 +43,8 @@ constexpr double mended_deg = 30;
 
 // With more bad triangles than this the size as a whole is wrong, not places.
 constexpr double share_of_many = 0.1;
-// With more places another surface costs less than the mending of each: over the triangles where their shape is bad, as
-// a number where edges are to be shorter around, which takes larger patches.
+// With more places, over the triangles, another surface costs less than the mending of each.
 constexpr double few_bad_places = 0.03;
-constexpr std::size_t few_coarse_places = 3;
 
 // Wanted with fewer triangles than this, a part without its edges stands for nothing any more: edges go before angles.
 constexpr double few_triangles_of_part = 1000;
@@ -105,6 +104,15 @@ bool SurfaceSearch::Trial::has_many_bad() const {
   return static_cast<double>(shape.bad.size()) > share_of_many * static_cast<double>(candidate.faces());
 }
 
+std::vector<ShorterEdges> SurfaceSearch::Trial::failed_places() const {
+  const auto faces = static_cast<double>(candidate.faces());
+  if (static_cast<double>(candidate.failed_at.size()) > few_bad_places * faces) return {};
+  const double edge = equilateral_edge(surface_area(candidate.mesh), faces);
+  std::vector<ShorterEdges> places;
+  for (const Vec3& p : candidate.failed_at) places.push_back(shorter_edges(p, edge, least_shortening, 1));
+  return places;
+}
+
 SurfaceSearch::SurfaceSearch(PreparedScanPointer scan, WantedSurface wanted, const SimplifyOptions& options)
     : first_scan_(scan), scan_(std::move(scan)), wanted_(std::move(wanted)), options_(options) {
   sizing_.triangles = wanted_.triangles;
@@ -116,6 +124,7 @@ Candidate SurfaceSearch::run(const Progress& progress) {
   set_first_sizing(progress);
   Trial latest = make(progress), best = latest;
   first_work_ = work_;
+  most_work_ = std::max(most_work * (wanted_.deviation ? first_work_ : wanted_.triangles), work_for_small);
   if (options_.method != SimplifyMethod::lattice) return std::move(best.candidate);
   bool was_by_shape = false;
   for (int in_vain = 0; !is_accepted(latest) && in_vain <= patience(latest.candidate.faces());) {
@@ -148,22 +157,22 @@ Candidate SurfaceSearch::run(const Progress& progress) {
                        .limit = std::to_string(wanted_.deviation->distance),
                        .advice = "a larger --deviation, or --faces"});
   last_ = std::move(best);
+  most_work_ = std::max(most_work_, work_ + work_for_small);
   return last_.candidate;
 }
 
 std::optional<Candidate> SurfaceSearch::run_again(std::span<const ShorterEdges> places, double most_triangles,
                                                   const Progress& progress) {
-  const std::vector<ShorterEdges> apart = without_overlaps(places);
-  if (apart.size() <= few_coarse_places && !is_mended_for_user_ && last_.candidate.method == SimplifyMethod::lattice) {
-    is_mended_for_user_ = true;
-    if (mend_in_place(last_, apart, MendFor::size, progress)) return last_.candidate;
-  }
-  is_mended_for_user_ = false;
   if (length_.empty()) length_ = scan_->wanted_lengths(sizing_);
   shorten_around(places, scan_->mesh, length_);
   if (!ask_for_lower_lengths(most_triangles)) return {};
   try {
     Trial made = make(progress);
+    if (made.gave_way() && !last_.gave_way()) {  // its elements would be worse yet
+      lower_lengths(made);
+      if (!ask_for_lower_lengths(most_triangles)) return {};
+      made = make(progress);
+    }
     // What was asked for first comes before what is asked for now.
     if (holds(last_) && !holds(made)) return {};
     last_ = std::move(made);
@@ -171,6 +180,26 @@ std::optional<Candidate> SurfaceSearch::run_again(std::span<const ShorterEdges> 
   } catch (const NotMeshable&) {
     return {};
   }
+}
+
+std::optional<Candidate> SurfaceSearch::run_moved(const std::vector<Vec3>& places) {
+  const PreparedScan& scan = *last_.candidate.scan;
+  Trial moved = last_;
+  SurfaceMesh& mesh = moved.candidate.mesh;
+  move_clear(mesh, places);
+  if (scan.is_closed()) preserve_volume_clear(mesh, scan.mesh, held_lines(moved.candidate.net, mesh.vertices.size()));
+  if (wanted_.deviation)
+    note_deviation(moved, bound_deviation(mesh, scan.deviation_reference(), {.limit = wanted_.deviation->distance}));
+  if (holds(last_) && !holds(moved)) return {};
+  last_ = std::move(moved);
+  return last_.candidate;
+}
+
+std::vector<bool> SurfaceSearch::held() const {
+  std::vector<bool> held(last_.candidate.mesh.vertices.size(), false);
+  for (const FeatureEdge& edge : edges_of(last_.candidate.net))
+    for (const std::uint32_t v : edge) held[v] = true;
+  return held;
 }
 
 void SurfaceSearch::set_first_sizing(const Progress& progress) {
@@ -295,29 +324,24 @@ void SurfaceSearch::mend_shape(Trial& made, const Progress& progress) const {
   if (bad.empty() || made.candidate.method != SimplifyMethod::lattice ||
       static_cast<double>(bad.size()) > few_bad_places * static_cast<double>(made.candidate.faces()))
     return;
-  mend_in_place(made, without_overlaps(bad), MendFor::shape, progress);
-}
-
-// A deviation that was asked for comes first. Whether some place was mended.
-bool SurfaceSearch::mend_in_place(Trial& made, std::span<const ShorterEdges> places, MendFor reason,
-                                  const Progress& progress) const {
   const PreparedScan& scan = *made.candidate.scan;
   Trial mended = made;
   SurfaceMesh& mesh = mended.candidate.mesh;
   MendPlacesOptions options;
-  options.reason = reason;
   options.limit =
       wanted_.deviation ? (1 - for_volume) * wanted_.deviation->distance : made.candidate.fit.largest_distance;
   options.least_angle_deg = mended_deg;
-  const MendPlacesResult result = mend_places(mesh, mended.candidate.net, scan.reference(),
-                                              &scan.deviation_reference().tree(), places, options, progress);
-  if (result.mended == 0) return false;
+  // What is plane stays plane.
+  if (scan.has_creases()) options.fidelity_of_diagonal = made.candidate.fit.fidelity_of_diagonal;
+  const MendPlacesResult result =
+      mend_places(mesh, mended.candidate.net, scan.reference(), &scan.deviation_reference().tree(),
+                  without_overlaps(bad), options, progress);
+  if (result.mended == 0) return;
   if (scan.is_closed()) preserve_volume_clear(mesh, scan.mesh, held_lines(mended.candidate.net, mesh.vertices.size()));
   if (wanted_.deviation)
     note_deviation(mended, bound_deviation(mesh, scan.deviation_reference(), {.limit = wanted_.deviation->distance}));
-  if (holds(made) && !holds(mended)) return false;
+  if (holds(made) && !holds(mended)) return;
   made = std::move(mended);
-  return true;
 }
 
 bool SurfaceSearch::holds(const Trial& made) const {
@@ -368,7 +392,10 @@ void SurfaceSearch::lower_lengths(const Trial& latest) {
   const bool lost = latest.lost_creases(*scan_);
   keep_creases_after(latest);
   double everywhere = 1;
-  if (latest.gave_way() || (lost && latest.has_many_bad()) || latest.is_other_part) {
+  const std::vector<ShorterEdges> failed = latest.failed_places();
+  if (!failed.empty()) {
+    shorten_around(failed, scan_->mesh, length_);
+  } else if (latest.gave_way() || (lost && latest.has_many_bad()) || latest.is_other_part) {
     everywhere = least_shortening;
   } else {
     if (!holds(latest))
@@ -393,9 +420,7 @@ bool SurfaceSearch::ask_for_lower_lengths(double most_triangles) {
   } else if (sizing_.triangles < room_for_places * wanted_.triangles) {
     sizing_.triangles = wanted_.triangles;  // a few places cost the others little
   }
-  const double first_work = wanted_.deviation ? first_work_ : wanted_.triangles;
-  return sizing_.triangles <= most_triangles &&
-         (work_ == 0 || work_ + sizing_.triangles <= std::max(most_work * first_work, work_for_small));
+  return sizing_.triangles <= most_triangles && (work_ == 0 || work_ + sizing_.triangles <= most_work_);
 }
 
 double SurfaceSearch::most_triangles() const {

@@ -40,10 +40,17 @@ class SurfaceSearch {
   // and NotMeshable where a deviation is required and was not reached.
   Candidate run(const Progress& progress);
 
-  // One more, with shorter edges at these places: by turns the last one mended there, and a whole new one. None where
-  // the budget is spent or there is no such surface. At most `most_triangles`. To be called after `run`.
+  // One more, with shorter edges at these places. None where the budget is spent or there is no such surface. At most
+  // `most_triangles`. To be called after `run`.
   std::optional<Candidate> run_again(std::span<const ShorterEdges> places, double most_triangles,
                                      const Progress& progress);
+
+  // The last one with its vertices at these places, or as far towards them as nothing meets, and the scan's volume.
+  // None where it would lose a deviation that was asked for. To be called after `run`.
+  std::optional<Candidate> run_moved(const std::vector<Vec3>& places);
+  std::vector<bool> held() const;  // vertices of the last one that are on lines
+  // How far its other vertices may go off it: as far as it is from the scan, where no deviation was asked for.
+  double way_off() const { return wanted_.deviation ? 0 : last_.candidate.fit.largest_distance; }
 
   // Where more triangles were asked for than wanted; empty where not.
   const std::string& size_remark() const { return size_remark_; }
@@ -63,6 +70,7 @@ class SurfaceSearch {
     bool gave_way() const { return !candidate.fallback_reason.empty(); }
     bool lost_creases(const PreparedScan& scan) const { return scan.has_creases() && candidate.feature_edges() == 0; }
     bool has_many_bad() const;
+    std::vector<ShorterEdges> failed_places() const;  // of the lattice; empty where they are many
   };
 
   void set_first_sizing(const Progress& progress);
@@ -73,7 +81,6 @@ class SurfaceSearch {
   void note_deviation(Trial& made, const DeviationBound& bound) const;
   void bring_within(Trial& made, const Progress& progress) const;
   void mend_shape(Trial& made, const Progress& progress) const;
-  bool mend_in_place(Trial& made, std::span<const ShorterEdges> places, MendFor reason, const Progress& progress) const;
   bool holds(const Trial& made) const;
   bool is_shapely(const Trial& made) const;
   bool is_accepted(const Trial& made) const;
@@ -92,9 +99,9 @@ class SurfaceSearch {
   std::vector<double> error_factors_;
   std::vector<double> length_;  // per vertex of the scan, as asked for last; empty before something was lowered
   Trial last_;                  // given
-  bool is_mended_for_user_ = false;
-  double work_ = 0;  // triangles made
+  double work_ = 0;             // triangles made
   double first_work_ = 0;
+  double most_work_ = 0;  // triangles that may be made
   std::string size_remark_;
 };
 
