@@ -4,8 +4,8 @@
 #include "preproc/surface/kernel/nearest.hpp"
 #include "quality/triangle_measures.hpp"
 
-#include <algorithm>
 #include <cmath>
+#include <unordered_set>
 
 namespace scan2fea {
 namespace {
@@ -15,13 +15,14 @@ namespace {
 bool scan_agrees(const ReferenceSurface& scan, std::uint32_t start, const Vec3& centre, double radius,
                  const Vec3& normal) {
   std::vector<std::uint32_t> reached{start};
+  std::unordered_set<std::uint32_t> known{start};  // thousands, where triangles are far larger than the scan's
   for (std::size_t k = 0; k < reached.size(); ++k) {
     if (scan.vertex_normals[reached[k]].dot(normal) > 0) return true;
     for (const std::uint32_t corner : scan.stars.corners(reached[k])) {
       if (scan.face_normals[corner / 3].dot(normal) > 0) return true;
       for (const std::uint32_t v : scan.mesh.triangles[corner / 3]) {
         if ((scan.mesh.vertices[v] - centre).norm() > radius) continue;
-        if (std::find(reached.begin(), reached.end(), v) == reached.end()) reached.push_back(v);
+        if (known.insert(v).second) reached.push_back(v);
       }
     }
   }
