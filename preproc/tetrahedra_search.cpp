@@ -100,7 +100,8 @@ RenewalResult renew_where_poor(Simplification& search, const SimplifyOptions& si
       break;
     }
     const double angle = smallest_dihedral(latest);
-    if (angle < result.min_dihedral_after_deg + worth_it_deg) continue;
+    const bool is_mended = is_poor && is_good(angle, latest, good_deg) && angle > result.min_dihedral_after_deg;
+    if (!is_mended && angle < result.min_dihedral_after_deg + worth_it_deg) continue;
     if (angle - result.min_dihedral_after_deg > worth_again * (moved_deg - result.min_dihedral_after_deg))
       ways_tried = 0;
     result.min_dihedral_after_deg = angle;

@@ -45,6 +45,8 @@ constexpr double mended_deg = 30;
 constexpr double share_of_many = 0.1;
 // With more places, over the triangles, another surface costs less than the mending of each.
 constexpr double few_bad_places = 0.03;
+// The same of places at which a lattice failed: they need more than a patch has.
+constexpr double few_failed_places = 0.01;
 
 // Wanted with fewer triangles than this, a part without its edges stands for nothing any more: edges go before angles.
 constexpr double few_triangles_of_part = 1000;
@@ -106,7 +108,7 @@ bool SurfaceSearch::Trial::has_many_bad() const {
 
 std::vector<ShorterEdges> SurfaceSearch::Trial::failed_places() const {
   const auto faces = static_cast<double>(candidate.faces());
-  if (static_cast<double>(candidate.failed_at.size()) > few_bad_places * faces) return {};
+  if (static_cast<double>(candidate.failed_at.size()) > few_failed_places * faces) return {};
   const double edge = equilateral_edge(surface_area(candidate.mesh), faces);
   std::vector<ShorterEdges> places;
   for (const Vec3& p : candidate.failed_at) places.push_back(shorter_edges(p, edge, least_shortening, 1));
