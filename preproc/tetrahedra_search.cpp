@@ -24,7 +24,7 @@ constexpr double many_poor = 0.1;
 constexpr std::size_t most_triangles = 50000;
 // No more triangles than these, over the first surface's or absolute.
 constexpr double most_growth = 2, most_of_small = 12000;
-// Of what lacks to moved_deg: vertices that gained so much by moving are moved again.
+// Of what lacks to moved_deg: vertices of poor elements that gained so much by moving are moved again.
 constexpr double worth_again = 0.25;
 // A smaller gain is not worth other triangles than the ones that were told.
 constexpr double worth_it_deg = 1;
@@ -102,7 +102,7 @@ RenewalResult renew_where_poor(Simplification& search, const SimplifyOptions& si
     const double angle = smallest_dihedral(latest);
     const bool is_mended = is_poor && is_good(angle, latest, good_deg) && angle > result.min_dihedral_after_deg;
     if (!is_mended && angle < result.min_dihedral_after_deg + worth_it_deg) continue;
-    if (angle - result.min_dihedral_after_deg > worth_again * (moved_deg - result.min_dihedral_after_deg))
+    if (is_poor && angle - result.min_dihedral_after_deg > worth_again * (moved_deg - result.min_dihedral_after_deg))
       ways_tried = 0;
     result.min_dihedral_after_deg = angle;
     result.made = latest;
