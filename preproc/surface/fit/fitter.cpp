@@ -1,6 +1,7 @@
 #include "preproc/surface/fit/fitter.hpp"
 
 #include "preproc/surface/kernel/nearest.hpp"
+#include "preproc/surface/kernel/parallel_blocks.hpp"
 #include "preproc/surface/kernel/rings.hpp"
 
 #include <Eigen/LU>
@@ -100,8 +101,7 @@ void Fitter::locate_samples(ShapeFitResult& result) {
   });
   const ByFace by_face = sort_by_face(locations_, mesh_.triangles.size());
   if (options_.both_sides) locate_faces(by_face);
-  reset_and_condense(by_face);
-  measure(result);
+  condense_all(by_face, result);
 }
 
 double Fitter::sweep() {
@@ -276,65 +276,59 @@ std::size_t Fitter::body_of(const ByFace& by_face, std::size_t f) const {
   return on_scan_.empty() ? 0 : scan_.body_of_vertex[scan_.mesh.triangles[on_scan_[face_samples.size() * f].face][0]];
 }
 
-void Fitter::reset_and_condense(const ByFace& by_face) {
-  located_ = mesh_.vertices;
+// Condenses a face's samples, and adds how far they are.
+FaceFit Fitter::condense(const ByFace& by_face, std::size_t f, Distances& distances) const {
   const double share = options_.both_sides ? 0.5 : 1.0;
-  tbb::parallel_for(Range(0, fits_.size(), 128), [&](const Range& range) {
-    for (std::size_t f = range.begin(); f < range.end(); ++f) {
-      FaceFit fit;
-      fit.normal = normals_[f];
-      const double area = area_vector(mesh_, mesh_.triangles[f]).norm() / 2;
-      const double held_area = options_.hold_faces_below * scan_.area / static_cast<double>(fits_.size());
-      const double body = weight_of_body_[body_of(by_face, f)];
-      const double hold = body * (area > 0 ? std::clamp(held_area / area, 1.0, 100.0) : 1.0);
-      for (std::uint32_t k = by_face.first[f]; k < by_face.first[f + 1]; ++k) {
-        const std::uint32_t s = by_face.order[k];
-        const Vec3 to_target = forward_.samples[s].point - point_at(mesh_, locations_[s]);
-        const double w =
-            hold * share * weight_unit_ * forward_.samples[s].weight * lift(body * to_target.squaredNorm());
-        add_sample(fit, locations_[s].barycentric, to_target, w, locations_[s].clamped);
-      }
-      if (options_.both_sides && has_free_vertex(f)) {
-        for (std::size_t k = 0; k < face_samples.size(); ++k) {
-          const Vec3 on_scan = point_at(scan_.mesh, on_scan_[face_samples.size() * f + k]);
-          const Vec3 to_target = on_scan - point_at(mesh_, {static_cast<std::uint32_t>(f), false, face_samples[k]});
-          add_sample(fit, face_samples[k], to_target,
-                     hold * share * weight_unit_ * area / 4 * lift(body * to_target.squaredNorm()), false);
-        }
-      }
-      fits_[f] = fit;
-    }
-  });
+  FaceFit fit;
+  fit.normal = normals_[f];
+  const double area = area_vector(mesh_, mesh_.triangles[f]).norm() / 2;
+  const double held_area = options_.hold_faces_below * scan_.area / static_cast<double>(fits_.size());
+  const double body = weight_of_body_[body_of(by_face, f)];
+  const double hold = body * (area > 0 ? std::clamp(held_area / area, 1.0, 100.0) : 1.0);
+  for (std::uint32_t k = by_face.first[f]; k < by_face.first[f + 1]; ++k) {
+    const std::uint32_t s = by_face.order[k];
+    const Vec3 to_target = forward_.samples[s].point - point_at(mesh_, locations_[s]);
+    const double squared = to_target.squaredNorm(), weight = forward_.samples[s].weight;
+    distances.of_scan.add(squared, weight);
+    distances.largest_squared = std::max(distances.largest_squared, squared);
+    add_sample(fit, locations_[s].barycentric, to_target, hold * share * weight_unit_ * weight * lift(body * squared),
+               locations_[s].clamped);
+  }
+  if (!options_.both_sides || !has_free_vertex(f)) return fit;
+  for (std::size_t k = 0; k < face_samples.size(); ++k) {
+    const Vec3 on_scan = point_at(scan_.mesh, on_scan_[face_samples.size() * f + k]);
+    const Vec3 to_target = on_scan - point_at(mesh_, {static_cast<std::uint32_t>(f), false, face_samples[k]});
+    const double squared = to_target.squaredNorm();
+    distances.of_mesh.add(squared, area);
+    distances.largest_squared = std::max(distances.largest_squared, squared);
+    add_sample(fit, face_samples[k], to_target, hold * share * weight_unit_ * area / 4 * lift(body * squared), false);
+  }
+  return fit;
 }
 
-void Fitter::measure(ShapeFitResult& result) {
-  double sum = 0;
-  double total = 0;
+void Fitter::condense_all(const ByFace& by_face, ShapeFitResult& result) {
+  located_ = mesh_.vertices;
   std::vector<double>& largest = result.largest_distance_of_face;
-  largest.assign(mesh_.triangles.size(), 0);
-  const auto add = [&](const Vec3& p, const Vec3& q, double weight, std::uint32_t face) {
-    const double squared = (p - q).squaredNorm();
-    sum += weight * squared;
-    total += weight;
-    largest[face] = std::max(largest[face], squared);
-  };
-  const auto mean = [&] { return total > 0 ? std::sqrt(sum / total) : 0; };
-  for (std::size_t s = 0; s < locations_.size(); ++s) {
-    add(forward_.samples[s].point, point_at(mesh_, locations_[s]), forward_.samples[s].weight, locations_[s].face);
+  largest.resize(fits_.size());
+  // Sums by block, added in their order: the same for any number of threads.
+  std::vector<Distances> of_block(parallel_block_count(fits_.size()));
+  for_each_block(fits_.size(), [&](std::size_t first, std::size_t last) {
+    Distances& block = of_block[first / parallel_block_size];
+    for (std::size_t f = first; f < last; ++f) {
+      block.largest_squared = 0;
+      fits_[f] = condense(by_face, f, block);
+      largest[f] = std::sqrt(block.largest_squared);
+    }
+  });
+  Distances all;
+  for (const Distances& block : of_block) {
+    all.of_scan.add(block.of_scan);
+    all.of_mesh.add(block.of_mesh);
   }
-  result.rms_distance = mean();
-  sum = total = 0;
-  for (std::size_t s = 0; s < on_scan_.size(); ++s) {
-    const auto f = static_cast<std::uint32_t>(s / face_samples.size());
-    if (!has_free_vertex(f)) continue;
-    add(point_at(mesh_, {f, false, face_samples[s % face_samples.size()]}), point_at(scan_.mesh, on_scan_[s]),
-        area_vector(mesh_, mesh_.triangles[f]).norm(), f);
-  }
-  result.rms_distance = std::max(result.rms_distance, mean());
-  for (double& d : largest) d = std::sqrt(d);
-  measure_bodies();
+  result.rms_distance = std::max(all.of_scan.rms(), all.of_mesh.rms());
   result.largest_distance = *std::max_element(largest.begin(), largest.end());
   result.samples = locations_.size() + on_scan_.size();
+  measure_bodies();
 }
 
 // RMS distance of the scan's samples.

@@ -13,6 +13,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -55,6 +56,23 @@ class Fitter {
   };
   static ByFace sort_by_face(const std::vector<Location>& locations, std::size_t faces);
 
+  struct MeanSquare {
+    double sum = 0, weight = 0;
+    void add(double squared, double of) {
+      sum += of * squared;
+      weight += of;
+    }
+    void add(const MeanSquare& other) {
+      sum += other.sum;
+      weight += other.weight;
+    }
+    double rms() const { return weight > 0 ? std::sqrt(sum / weight) : 0; }
+  };
+  struct Distances {
+    MeanSquare of_scan, of_mesh;  // of the samples of each
+    double largest_squared = 0;
+  };
+
   // Of the faces around a vertex.
   double energy(std::span<const std::uint32_t> copies) const;
   std::array<Vec3, 3> moved_corners(const Triangle& t) const;
@@ -75,8 +93,8 @@ class Fitter {
   double lift(double squared_distance) const;
   // That the face lies on.
   std::size_t body_of(const ByFace& by_face, std::size_t f) const;
-  void reset_and_condense(const ByFace& by_face);
-  void measure(ShapeFitResult& result);
+  FaceFit condense(const ByFace& by_face, std::size_t f, Distances& distances) const;
+  void condense_all(const ByFace& by_face, ShapeFitResult& result);
   void measure_bodies();
 
   // Adds the derivatives of the energy by the place of v. False where a face around it has no area.

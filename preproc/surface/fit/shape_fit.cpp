@@ -5,6 +5,7 @@
 #include "preproc/surface/fit/fitter.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace scan2fea {
@@ -35,6 +36,11 @@ void check(const SurfaceMesh& mesh, const ReferenceSurface& scan, const ShapeFit
   }
 }
 
+// Where the RMS distance changes by less than this from one location to the next, the samples lie about where they
+// will: until the last round only the shape gains, and they are not located in between.
+constexpr double settled = 0.002;
+constexpr int first_settled_round = 3;
+
 // The rounds; after_sweep(round) moves what the sweeps leave alone.
 template <class AfterSweep>
 ShapeFitResult run_rounds(Fitter& fitter, const ShapeFitOptions& options, const Progress& progress,
@@ -44,13 +50,18 @@ ShapeFitResult run_rounds(Fitter& fitter, const ShapeFitOptions& options, const 
   constexpr double loosest = 0.01;  // of the diagonal
   ShapeFitResult result;
   result.fidelity_of_diagonal = options.fidelity_of_diagonal;
+  bool is_settled = false;
   for (int round = 0; round < options.rounds; ++round) {
     progress("shape and fit", static_cast<double>(round) / options.rounds);
     const int dialled = round - first_dialled_round;
-    if (options.fidelity_of_residual && dialled >= 0 && dialled < options.rounds_of_dialling) {
+    const bool is_dialled = options.fidelity_of_residual && dialled >= 0 && dialled < options.rounds_of_dialling;
+    if (is_dialled)
       result.fidelity_of_diagonal = fitter.set_fidelity_by_residual(*options.fidelity_of_residual, loosest, result);
+    if (is_dialled || !is_settled || round + 1 == options.rounds) {
+      const double before = result.rms_distance;
+      fitter.locate_samples(result);
+      is_settled = round >= first_settled_round && std::abs(result.rms_distance - before) <= settled * before;
     }
-    fitter.locate_samples(result);
     for (int s = 0; s < options.sweeps; ++s) {
       result.largest_step = fitter.sweep();
       after_sweep(round);
