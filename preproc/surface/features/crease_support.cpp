@@ -43,6 +43,11 @@ constexpr double most_unchecked = 0.35;
 // faces, of which anything is smooth. The sharp edge of a wedge is longer.
 constexpr std::size_t most_edges_of_flap = 6;
 constexpr double least_turn_of_flap = 0.75 * std::numbers::pi;
+// Where a line of a part bends sharply, the face on one side of it does, too, and that edge is sharp as well. Few edges
+// without an end, whose line bends sharply where no third one meets it, are a flap of some more triangles. At this turn
+// and bend the face would bend by 40 degrees.
+constexpr std::size_t most_edges_of_ring = 7;
+constexpr double least_turn_of_ring = std::numbers::pi / 3, least_bend_of_ring = 0.25 * std::numbers::pi;
 
 // Figures count up to this, so that some wild edges do not spoil a long crease.
 constexpr double most_counted = 1;
@@ -216,7 +221,8 @@ struct Mean {
 struct NetworkFigures {
   Mean spread, unevenness, zigzag, drift, tilt;
   double length = 0, angle = 0;  // the angle times the length, summed
-  std::size_t edges = 0, free_ends = 0;
+  double bend = 0;               // of the line at its joints, summed
+  std::size_t edges = 0, ends = 0, free_ends = 0, joints = 0;
   std::uint32_t vertex = 0;  // one of its own
   Vec3 place = Vec3::Zero();
 };
@@ -235,7 +241,9 @@ double beyond(double figure, double of_noise) {
 }
 
 bool is_flap(const NetworkFigures& net) {
-  return net.edges <= most_edges_of_flap && net.angle > least_turn_of_flap * net.length;
+  if (net.edges <= most_edges_of_flap && net.angle > least_turn_of_flap * net.length) return true;
+  return net.edges <= most_edges_of_ring && net.ends == 0 && net.angle > least_turn_of_ring * net.length &&
+         net.bend > least_bend_of_ring * static_cast<double>(net.joints);
 }
 
 bool is_crease(const NetworkFigures& net, double noise, double diagonal) {
@@ -303,13 +311,19 @@ std::map<std::uint32_t, NetworkFigures> network_figures(const CreaseSurface& sur
   }
   for (const auto& [v, joint] : networks.joints()) {
     const EdgeFigures &a = edges[joint.edges[0]], &b = edges[joint.edges[1]];
-    figures[networks.of(joint.edges[0])].unevenness.add(change(a.angle, b.angle), a.length + b.length);
+    NetworkFigures& net = figures[networks.of(joint.edges[0])];
+    net.unevenness.add(change(a.angle, b.angle), a.length + b.length);
+    net.bend += joint.turn.norm();
+    ++net.joints;
   }
   for (const std::vector<std::uint32_t>& chain : networks.chains())
     add_drift(edges, chain, figures[networks.of(chain.front())].drift);
   const std::vector<char> border = border_vertices(surface);
-  for (const auto& [vertex, edge] : networks.ends())
-    if (!border[vertex]) ++figures[networks.of(edge)].free_ends;
+  for (const auto& [vertex, edge] : networks.ends()) {
+    NetworkFigures& net = figures[networks.of(edge)];
+    ++net.ends;
+    if (!border[vertex]) ++net.free_ends;
+  }
   return figures;
 }
 
