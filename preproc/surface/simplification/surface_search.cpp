@@ -356,7 +356,9 @@ bool SurfaceSearch::is_shapely(const Trial& made) const {
 
 bool SurfaceSearch::is_accepted(const Trial& made) const {
   if (!holds(made) || !is_shapely(made) || made.is_other_part) return false;
-  return made.shape.empty();
+  // Of very many triangles another lattice costs far more than the few places that it may mend are worth.
+  return made.shape.empty() || (!options_.for_tetrahedra && !made.gave_way() && !made.has_many_bad() &&
+                                made.candidate.faces() >= very_many_triangles);
 }
 
 // Corners of the part stay about as they are; what else is bad decides then.
