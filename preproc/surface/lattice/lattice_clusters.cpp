@@ -97,34 +97,19 @@ void LatticeClusters::join_anchored(const std::vector<Vec3>& anchors) {
   }
 }
 
-// Edges whose ends share a lattice point, by ascending disagreement about where it is (to 1/256 of an edge length).
+// Edges whose ends share a lattice point, by ascending disagreement about where it is.
 std::vector<LatticeClusters::Join> LatticeClusters::joins_by_residual(const PositionField& position) const {
   const GraphLevel& graph = *graph_;
-  constexpr std::size_t buckets = 256;
-  constexpr std::uint16_t no_join = buckets;
-  std::vector<std::uint16_t> residual(graph.neighbours.size(), no_join);
-  for_each_block(graph.size(), [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      for (std::uint32_t e = graph.first[i]; e < graph.first[i + 1]; ++e) {
-        const std::uint32_t j = graph.neighbours[e];
-        if (j > i) continue;
-        const LatticeCoordinates predicted = carried(position.steps[e], position.offsets[j]);
-        const LatticeCoordinates change{predicted[0] - position.offsets[i][0], predicted[1] - position.offsets[i][1]};
-        const LatticeCoordinates image = nearest_lattice_point(change);
-        if (image[0] == 0 && image[1] == 0)
-          residual[e] =
-              static_cast<std::uint16_t>(std::min<float>(buckets - 1, std::sqrt(squared_length(change)) * buckets));
-      }
-    }
-  });
+  constexpr std::size_t buckets = no_shared_point;
+  const std::vector<std::uint16_t>& residual = position.residuals;
   std::array<std::size_t, buckets + 1> start{};
   for (const std::uint16_t r : residual)
-    if (r != no_join) ++start[r + 1U];
+    if (r != no_shared_point) ++start[r + 1U];
   for (std::size_t b = 0; b < buckets; ++b) start[b + 1] += start[b];
   std::vector<Join> joins(start[buckets]);
   for (std::uint32_t i = 0; i < graph.size(); ++i)
     for (std::uint32_t e = graph.first[i]; e < graph.first[i + 1]; ++e)
-      if (residual[e] != no_join) joins[start[residual[e]]++] = {graph.neighbours[e], i};
+      if (residual[e] != no_shared_point) joins[start[residual[e]]++] = {graph.neighbours[e], i};
   return joins;
 }
 

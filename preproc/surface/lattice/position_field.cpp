@@ -86,6 +86,25 @@ void sweep(const GraphLevel& level, const std::vector<LatticeStep>& steps, std::
   });
 }
 
+std::vector<std::uint16_t> residuals_of(const GraphLevel& level, const std::vector<LatticeStep>& steps,
+                                        const std::vector<LatticeCoordinates>& offsets) {
+  std::vector<std::uint16_t> residuals(steps.size(), no_shared_point);
+  for_each_block(level.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      for (std::uint32_t e = level.first[i]; e < level.first[i + 1]; ++e) {
+        const std::uint32_t j = level.neighbours[e];
+        if (j > i) continue;
+        const LatticeCoordinates predicted = carried(steps[e], offsets[j]);
+        const LatticeCoordinates change{predicted[0] - offsets[i][0], predicted[1] - offsets[i][1]};
+        const LatticeCoordinates image = nearest_lattice_point(change);
+        if (image[0] == 0 && image[1] == 0)
+          residuals[e] = static_cast<std::uint16_t>(
+              std::min<float>(no_shared_point - 1, std::sqrt(squared_length(change)) * no_shared_point));
+      }
+  });
+  return residuals;
+}
+
 // A level's directions as means of the finer level's, so that all levels describe the same lattice.
 std::vector<Complex> restricted_directions(const GraphLevel& fine, const std::vector<Complex>& directions,
                                            const GraphLevel& coarse) {
@@ -152,7 +171,8 @@ PositionField compute_position_field(const FieldGraph& graph, const OrientationF
     const int sweeps = coarsest ? 5 * options.sweeps : options.sweeps;
     for (int s = 0; s < sweeps; ++s) sweep(level, steps, before, offsets);
   }
-  return {std::move(offsets), std::move(steps)};
+  std::vector<std::uint16_t> residuals = residuals_of(graph.levels.front(), steps, offsets);
+  return {std::move(offsets), std::move(residuals)};
 }
 
 }  // namespace scan2fea

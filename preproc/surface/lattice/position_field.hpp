@@ -92,10 +92,14 @@ struct PositionOptions {
   int sweeps = 4;  // of Gauss-Seidel on each level, 1 or more
 };
 
+// The residuals of edges whose ends share a lattice point are below this.
+inline constexpr std::uint16_t no_shared_point = 256;
+
 struct PositionField {
-  std::vector<LatticeCoordinates>
-      offsets;                     // per node of the finest level, its coordinates from its nearest lattice point
-  std::vector<LatticeStep> steps;  // per edge of the finest level, from the neighbour to the node
+  std::vector<LatticeCoordinates> offsets;  // per node of the finest level, its coordinates from its nearest point
+  // Per edge of the finest level, from the neighbour of the smaller index: by how much its ends disagree about where
+  // the lattice point is that they share, in 1/256 of an edge length; `no_shared_point` where they have different ones.
+  std::vector<std::uint16_t> residuals;
 };
 
 // Sets each node to the running mean of what its neighbours' coordinates predict, each prediction taken at its nearest
