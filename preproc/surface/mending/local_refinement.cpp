@@ -81,11 +81,15 @@ FarPoints far_vertices(const SurfaceMesh& mesh, const ReferenceSurface& scan, do
   const std::size_t count = scan.mesh.vertices.size();
   const std::size_t step = 1 + count / (most_vertices_per_face * mesh.triangles.size());
   const TriangleTree tree(mesh);
-  std::vector<double> distances((count + step - 1) / step);
+  std::vector<double> distances((count + step - 1) / step, 0);  // 0 where within the limit
   for_each_block(distances.size(), [&](std::size_t first, std::size_t last) {
     std::uint32_t hint = tree.leaf_order().front();
     for (std::size_t i = first; i < last; ++i) {
-      const ClosestPoint nearest = tree.closest(scan.mesh.vertices[i * step], hint);
+      const Vec3& p = scan.mesh.vertices[i * step];
+      // Mostly the face that is nearest to the last one is near enough.
+      const auto& [a, b, c] = tree.corners_of_leaf(tree.leaf_of(hint));
+      if ((p - closest_point_on_triangle(p, a, b, c)).norm() <= limit) continue;
+      const ClosestPoint nearest = tree.closest(p, hint);
       hint = nearest.triangle;
       distances[i] = std::sqrt(nearest.squared_distance);
     }

@@ -149,7 +149,10 @@ MendResult mend_surface(SurfaceMesh& mesh, const FeatureNet& given_net, const Re
   const double edge = std::sqrt(scan.area / static_cast<double>(mesh.triangles.size()));
   // With features the fit finds them itself, patch by patch.
   std::optional<std::vector<std::uint32_t>> nearest_to_scan;
-  if (net.empty()) nearest_to_scan = nearest_vertices(scan.mesh.vertices, scan.vertex_normals, mesh, edge);
+  if (net.empty())
+    nearest_to_scan = options.nearest_vertex_of_scan_vertex
+                          ? std::move(options.nearest_vertex_of_scan_vertex)
+                          : nearest_vertices(scan.mesh.vertices, scan.vertex_normals, mesh, edge);
   const SurfaceMesh given = mesh;
   SurfaceMesh best = mesh;
   SurfaceDefects now = result.before;

@@ -27,6 +27,8 @@ struct MendOptions {
   double fidelity_of_diagonal = 0.0016;
   double loosest_fidelity_of_diagonal = 0.05;  // where that growth ends
   VertexConstraints constraints;
+  // As of ShapeFitOptions; where absent, a k-d tree finds them when they are needed.
+  std::optional<std::vector<std::uint32_t>> nearest_vertex_of_scan_vertex;
 };
 
 struct MendResult {

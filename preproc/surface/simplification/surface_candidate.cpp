@@ -135,6 +135,7 @@ Candidate by_lattice(const PreparedScanPointer& prepared, const SizingOptions& s
   fit.nearest_vertex_of_scan_vertex = std::move(lattice.vertex_of_scan_vertex);
   candidate.fit = optimise_shape_and_fit(candidate.mesh, candidate.net, scan.reference(), fit, progress);
   MendOptions mending;
+  mending.nearest_vertex_of_scan_vertex = std::move(fit.nearest_vertex_of_scan_vertex);
   // On parts with edges, not much looser than the fit: what is plane stays plane.
   if (scan.has_creases()) {
     mending.fidelity_of_diagonal = candidate.fit.fidelity_of_diagonal;
@@ -345,13 +346,14 @@ Candidate make_surface(const PreparedScanPointer& scan, const SizingOptions& siz
   Candidate candidate = best_by_lattice(scan, sizing, plan, progress);
   const bool failed = !candidate.failure.empty();
   // A deviation asks for shorter edges itself.
-  if (may_go_by_shape && !plan.within_deviation && is_part(scan->given)) {
+  if (may_go_by_shape && !plan.within_deviation) {
     const bool lost_shape = failed || is_far(candidate);
-    if (!lost_shape && !is_ill_shaped(candidate)) return candidate;
-    Candidate by_shape =
-        make_surface_by_shape(*scan, sizing, options, effort, shape_budget(sizing.triangles, lost_shape), progress);
-    if (by_shape.failure.empty() && (failed ? is_usable(by_shape) : is_as_well_shaped(by_shape, candidate)))
-      return by_shape;
+    if ((lost_shape || is_ill_shaped(candidate)) && is_part(scan->given)) {
+      Candidate by_shape =
+          make_surface_by_shape(*scan, sizing, options, effort, shape_budget(sizing.triangles, lost_shape), progress);
+      if (by_shape.failure.empty() && (failed ? is_usable(by_shape) : is_as_well_shaped(by_shape, candidate)))
+        return by_shape;
+    }
   }
   if (!failed) return candidate;
   if (scan->has_creases()) candidate = with_fewer_creases(std::move(candidate), sizing, plan, progress);
