@@ -27,15 +27,19 @@ struct FaceFit {
   Vec3 normal = Vec3::Zero();              // N when the moments were taken
   CornerMoments plane{};                   // sum w b_i b_j of samples against the plane
   std::array<double, 3> plane_residual{};  // sum w b_i r
-  bool has_points = false;                 // whether the next two hold anything
-  CornerMoments point{};                   // the same of clamped samples
-  std::array<Vec3, 3> point_residual{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+  bool has_points = false;                 // whether the face's PointFit holds anything
+};
+
+// The same of clamped samples. Apart, since few faces have any and sweeps read the others' moments all the time.
+struct PointFit {
+  CornerMoments point{};
+  std::array<Vec3, 3> residual{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
 };
 
 // Adds a sample at `at` with distance vector `to_target` (from its place on the face to where it should be).
-inline void add_sample(FaceFit& fit, const std::array<double, 3>& b, const Vec3& to_target, double weight,
-                       bool clamped) {
-  CornerMoments& second = clamped ? fit.point : fit.plane;
+inline void add_sample(FaceFit& fit, PointFit& points, const std::array<double, 3>& b, const Vec3& to_target,
+                       double weight, bool clamped) {
+  CornerMoments& second = clamped ? points.point : fit.plane;
   second[0] += weight * b[0] * b[0];
   second[1] += weight * b[1] * b[1];
   second[2] += weight * b[2] * b[2];
@@ -44,7 +48,7 @@ inline void add_sample(FaceFit& fit, const std::array<double, 3>& b, const Vec3&
   second[5] += weight * b[2] * b[0];
   if (clamped) {
     fit.has_points = true;
-    for (std::size_t i = 0; i < 3; ++i) fit.point_residual[i] += weight * b[i] * to_target;
+    for (std::size_t i = 0; i < 3; ++i) points.residual[i] += weight * b[i] * to_target;
   } else {
     const double r = fit.normal.dot(to_target);
     for (std::size_t i = 0; i < 3; ++i) fit.plane_residual[i] += weight * b[i] * r;
@@ -53,29 +57,29 @@ inline void add_sample(FaceFit& fit, const std::array<double, 3>& b, const Vec3&
 
 // Adds gradient and Hessian of sum w (distance)^2 by the position of corner i, the corners having moved by `moved`
 // since the moments were taken.
-inline void add_derivatives(const FaceFit& fit, std::size_t i, const std::array<Vec3, 3>& moved, Vec3& gradient,
-                            Eigen::Matrix3d& hessian) {
+inline void add_derivatives(const FaceFit& fit, const PointFit& points, std::size_t i, const std::array<Vec3, 3>& moved,
+                            Vec3& gradient, Eigen::Matrix3d& hessian) {
   double along = -fit.plane_residual[i];
   for (std::size_t j = 0; j < 3; ++j) along += fit.plane[corner_pair(i, j)] * fit.normal.dot(moved[j]);
   gradient += 2 * along * fit.normal;
   hessian.noalias() += (2 * fit.plane[i]) * fit.normal * fit.normal.transpose();
   if (!fit.has_points) return;
-  Vec3 pull = -fit.point_residual[i];
-  for (std::size_t j = 0; j < 3; ++j) pull += fit.point[corner_pair(i, j)] * moved[j];
+  Vec3 pull = -points.residual[i];
+  for (std::size_t j = 0; j < 3; ++j) pull += points.point[corner_pair(i, j)] * moved[j];
   gradient += 2 * pull;
-  hessian.diagonal().array() += 2 * fit.point[i];
+  hessian.diagonal().array() += 2 * points.point[i];
 }
 
 // Sum w (distance)^2 once the corners have moved, less what it was when the moments were taken.
-inline double change_of_fit(const FaceFit& fit, const std::array<Vec3, 3>& moved) {
+inline double change_of_fit(const FaceFit& fit, const PointFit& points, const std::array<Vec3, 3>& moved) {
   double change = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const double along = fit.normal.dot(moved[i]);
     change -= 2 * along * fit.plane_residual[i];
     for (std::size_t j = 0; j < 3; ++j) change += fit.plane[corner_pair(i, j)] * along * fit.normal.dot(moved[j]);
     if (!fit.has_points) continue;
-    change -= 2 * moved[i].dot(fit.point_residual[i]);
-    for (std::size_t j = 0; j < 3; ++j) change += fit.point[corner_pair(i, j)] * moved[i].dot(moved[j]);
+    change -= 2 * moved[i].dot(points.residual[i]);
+    for (std::size_t j = 0; j < 3; ++j) change += points.point[corner_pair(i, j)] * moved[i].dot(moved[j]);
   }
   return change;
 }

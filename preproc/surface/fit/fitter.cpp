@@ -21,8 +21,6 @@ using Range = tbb::blocked_range<std::size_t>;
 
 // A step of more than this part of the smallest edge or height around a vertex could turn a triangle over.
 constexpr double longest_step = 0.3;
-// The factor on a Newton step, as in successive over-relaxation: six rounds then do more than eight without.
-constexpr double over_relaxation = 1.5;
 // More samples a face than this do not improve the fit; on a scan far finer than the mesh they would take its time and
 // memory.
 constexpr std::size_t most_samples_per_face = 12;
@@ -65,7 +63,8 @@ Fitter::Fitter(SurfaceMesh& mesh, const ReferenceSurface& scan, const ShapeFitOp
       forward_(sample_surface(scan, longest_scan_edge * mean_edge_,
                               (scan.patch_of_vertex.empty() ? most_samples_per_face : most_samples_per_face_of_parts) *
                                   mesh.triangles.size())),
-      fits_(mesh.triangles.size()) {
+      fits_(mesh.triangles.size()),
+      point_fits_(mesh.triangles.size()) {
   set_fidelity(options.fidelity_of_diagonal);
   start_locations();
 }
@@ -104,12 +103,12 @@ void Fitter::locate_samples(ShapeFitResult& result) {
   condense_all(by_face, result);
 }
 
-double Fitter::sweep() {
+double Fitter::sweep(double over_relaxation) {
   std::vector<double> steps(mesh_.vertices.size(), 0);
   for (const std::vector<std::uint32_t>& colour : colours_) {
     tbb::parallel_for(Range(0, colour.size(), 64), [&](const Range& range) {
       for (std::size_t i = range.begin(); i < range.end(); ++i) {
-        if (is_free(colour[i])) steps[colour[i]] = move(colour[i]);
+        if (is_free(colour[i])) steps[colour[i]] = move(colour[i], over_relaxation);
       }
     });
   }
@@ -154,7 +153,7 @@ double Fitter::energy(std::span<const std::uint32_t> copies) const {
       sum += shape_energy(options_.shape, mesh_.vertices[t[i]], mesh_.vertices[t[(i + 1) % 3]],
                           mesh_.vertices[t[(i + 2) % 3]])
                  .value +
-             change_of_fit(fits_[corner / 3], moved_corners(t));
+             change_of_fit(fits_[corner / 3], point_fits_[corner / 3], moved_corners(t));
     }
   }
   return sum;
@@ -277,9 +276,10 @@ std::size_t Fitter::body_of(const ByFace& by_face, std::size_t f) const {
 }
 
 // Condenses a face's samples, and adds how far they are.
-FaceFit Fitter::condense(const ByFace& by_face, std::size_t f, Distances& distances) const {
+void Fitter::condense(const ByFace& by_face, std::size_t f, Distances& distances) {
   const double share = options_.both_sides ? 0.5 : 1.0;
-  FaceFit fit;
+  FaceFit& fit = fits_[f] = {};
+  PointFit& points = point_fits_[f] = {};
   fit.normal = normals_[f];
   const double area = area_vector(mesh_, mesh_.triangles[f]).norm() / 2;
   const double held_area = options_.hold_faces_below * scan_.area / static_cast<double>(fits_.size());
@@ -291,19 +291,19 @@ FaceFit Fitter::condense(const ByFace& by_face, std::size_t f, Distances& distan
     const double squared = to_target.squaredNorm(), weight = forward_.samples[s].weight;
     distances.of_scan.add(squared, weight);
     distances.largest_squared = std::max(distances.largest_squared, squared);
-    add_sample(fit, locations_[s].barycentric, to_target, hold * share * weight_unit_ * weight * lift(body * squared),
-               locations_[s].clamped);
+    add_sample(fit, points, locations_[s].barycentric, to_target,
+               hold * share * weight_unit_ * weight * lift(body * squared), locations_[s].clamped);
   }
-  if (!options_.both_sides || !has_free_vertex(f)) return fit;
+  if (!options_.both_sides || !has_free_vertex(f)) return;
   for (std::size_t k = 0; k < face_samples.size(); ++k) {
     const Vec3 on_scan = point_at(scan_.mesh, on_scan_[face_samples.size() * f + k]);
     const Vec3 to_target = on_scan - point_at(mesh_, {static_cast<std::uint32_t>(f), false, face_samples[k]});
     const double squared = to_target.squaredNorm();
     distances.of_mesh.add(squared, area);
     distances.largest_squared = std::max(distances.largest_squared, squared);
-    add_sample(fit, face_samples[k], to_target, hold * share * weight_unit_ * area / 4 * lift(body * squared), false);
+    add_sample(fit, points, face_samples[k], to_target, hold * share * weight_unit_ * area / 4 * lift(body * squared),
+               false);
   }
-  return fit;
 }
 
 void Fitter::condense_all(const ByFace& by_face, ShapeFitResult& result) {
@@ -316,7 +316,7 @@ void Fitter::condense_all(const ByFace& by_face, ShapeFitResult& result) {
     Distances& block = of_block[first / parallel_block_size];
     for (std::size_t f = first; f < last; ++f) {
       block.largest_squared = 0;
-      fits_[f] = condense(by_face, f, block);
+      condense(by_face, f, block);
       largest[f] = std::sqrt(block.largest_squared);
     }
   });
@@ -359,12 +359,12 @@ bool Fitter::add_star(std::uint32_t v, Vec3& gradient, Eigen::Matrix3d& hessian,
     const Derivatives d = shape_energy(options_.shape, p, a, b);
     gradient += d.gradient;
     hessian += d.hessian;
-    add_derivatives(fits_[f], i, moved_corners(t), gradient, hessian);
+    add_derivatives(fits_[f], point_fits_[f], i, moved_corners(t), gradient, hessian);
   }
   return true;
 }
 
-double Fitter::move(std::uint32_t v) {
+double Fitter::move(std::uint32_t v, double over_relaxation) {
   Vec3 gradient = Vec3::Zero();
   Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
   const Vec3 p = mesh_.vertices[v];

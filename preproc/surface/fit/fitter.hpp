@@ -34,11 +34,15 @@ class Fitter {
   // loosest; returns that of all. After a location.
   double set_fidelity_by_residual(double factor, double loosest, const ShapeFitResult& located);
 
+  // Of equilateral triangles.
+  double mean_edge() const { return mean_edge_; }
+
   // Locates all samples anew, condenses them, and measures how far they are.
   void locate_samples(ShapeFitResult& result);
 
-  // One Gauss-Seidel sweep of Newton steps over all free vertices; returns the largest step.
-  double sweep();
+  // One Gauss-Seidel sweep of Newton steps over all free vertices, by so many times what they ask for, as in successive
+  // over-relaxation; returns the largest step.
+  double sweep(double over_relaxation);
 
   // Moves a vertex, which is there in several copies.
   void put(std::span<const std::uint32_t> copies, const Vec3& point);
@@ -93,13 +97,13 @@ class Fitter {
   double lift(double squared_distance) const;
   // That the face lies on.
   std::size_t body_of(const ByFace& by_face, std::size_t f) const;
-  FaceFit condense(const ByFace& by_face, std::size_t f, Distances& distances) const;
+  void condense(const ByFace& by_face, std::size_t f, Distances& distances);
   void condense_all(const ByFace& by_face, ShapeFitResult& result);
   void measure_bodies();
 
   // Adds the derivatives of the energy by the place of v. False where a face around it has no area.
   bool add_star(std::uint32_t v, Vec3& gradient, Eigen::Matrix3d& hessian, double& least_squared_length) const;
-  double move(std::uint32_t v);
+  double move(std::uint32_t v, double over_relaxation);
 
   SurfaceMesh& mesh_;
   const ReferenceSurface& scan_;
@@ -118,6 +122,7 @@ class Fitter {
   std::vector<Location> on_scan_;    // of the mesh's samples on the scan, four a face
   std::vector<Vec3> located_;        // the vertices when the samples were located
   std::vector<FaceFit> fits_;
+  std::vector<PointFit> point_fits_;
 };
 
 }  // namespace scan2fea
