@@ -39,6 +39,11 @@ constexpr double third = 1. / 3;
 constexpr std::array<std::array<double, 3>, 4> face_samples{
     {{third, third, third}, {2. / 3, 1. / 6, 1. / 6}, {1. / 6, 2. / 3, 1. / 6}, {1. / 6, 1. / 6, 2. / 3}}};
 
+std::uint32_t nearest_corner(const SurfaceMesh& mesh, const Location& at) {
+  const auto largest = std::max_element(at.barycentric.begin(), at.barycentric.end());
+  return mesh.triangles[at.face][static_cast<std::size_t>(largest - at.barycentric.begin())];
+}
+
 // One array after the other: a copy of all of them at once would be the peak of a large scan's memory.
 template <class Item>
 void reorder(std::vector<Item>& items, const std::vector<std::uint32_t>& order) {
@@ -328,6 +333,9 @@ void Fitter::condense_all(const ByFace& by_face, ShapeFitResult& result) {
   result.rms_distance = std::max(all.of_scan.rms(), all.of_mesh.rms());
   result.largest_distance = *std::max_element(largest.begin(), largest.end());
   result.samples = locations_.size() + on_scan_.size();
+  result.scan_vertex_of_face.resize(on_scan_.size() / face_samples.size());
+  for (std::size_t f = 0; f < result.scan_vertex_of_face.size(); ++f)
+    result.scan_vertex_of_face[f] = nearest_corner(scan_.mesh, on_scan_[face_samples.size() * f]);
   measure_bodies();
 }
 

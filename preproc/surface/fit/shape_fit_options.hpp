@@ -49,6 +49,8 @@ struct ShapeFitResult {
   double rms_distance = 0;
   double largest_distance = 0;
   std::vector<double> largest_distance_of_face;  // by the face that the sample was located on, or is of
+  // By face, a corner of the scan's face on which its centroid was located. Nothing where only the scan's samples were.
+  std::vector<std::uint32_t> scan_vertex_of_face;
   std::size_t samples = 0;
   double largest_step = 0;          // of a vertex, in the last sweep
   double fidelity_of_diagonal = 0;  // that the last round had

@@ -29,6 +29,26 @@ bool scan_agrees(const ReferenceSurface& scan, std::uint32_t start, const Vec3& 
   return false;
 }
 
+struct FaceCentres {
+  FaceCentres() = default;
+  explicit FaceCentres(const SurfaceMesh& mesh) {
+    // The mean of the corners' normals: where a single face is inverted it still tells the side.
+    const std::vector<Vec3> at_vertices = vertex_normals(mesh);
+    centroids.reserve(mesh.triangles.size());
+    normals.reserve(mesh.triangles.size());
+    for (const Triangle& t : mesh.triangles) {
+      centroids.push_back((mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3);
+      normals.push_back((at_vertices[t[0]] + at_vertices[t[1]] + at_vertices[t[2]]).normalized());
+    }
+  }
+
+  std::vector<Vec3> centroids, normals;
+};
+
+double spacing_of(const SurfaceMesh& mesh, const ReferenceSurface& scan) {
+  return std::sqrt(scan.area / static_cast<double>(mesh.triangles.size()));
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> scan_vertices_of_faces(const SurfaceMesh& mesh, const ReferenceSurface& scan) {
@@ -37,21 +57,33 @@ std::vector<std::uint32_t> scan_vertices_of_faces(const SurfaceMesh& mesh, const
 
 std::vector<std::uint32_t> scan_vertices_of_faces(const SurfaceMesh& mesh, const FeatureNet& net,
                                                   const ReferenceSurface& scan) {
-  const CutSurface cut = cut_along(mesh, edges_of(net));
-  // The mean of the corners' normals: where a single face is inverted it still tells the side.
-  const std::vector<Vec3> at_vertices = vertex_normals(cut.mesh);
-  std::vector<Vec3> centroids;
-  std::vector<Vec3> normals;
-  centroids.reserve(mesh.triangles.size());
-  normals.reserve(mesh.triangles.size());
-  for (const Triangle& t : cut.mesh.triangles) {
-    centroids.push_back((cut.mesh.vertices[t[0]] + cut.mesh.vertices[t[1]] + cut.mesh.vertices[t[2]]) / 3);
-    normals.push_back((at_vertices[t[0]] + at_vertices[t[1]] + at_vertices[t[2]]).normalized());
+  const FaceCentres faces(cut_along(mesh, edges_of(net)).mesh);
+  const double spacing = spacing_of(mesh, scan);
+  return net.empty() ? nearest_vertices(faces.centroids, faces.normals, scan.mesh, spacing)
+                     : nearest_vertices_of_patch(faces.centroids, faces.normals, net.patch_of_face, scan.mesh,
+                                                 scan.patch_of_vertex, spacing);
+}
+
+std::vector<std::uint32_t> scan_vertices_of_faces(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& known,
+                                                  const ReferenceSurface& scan) {
+  constexpr double near = 0.5;
+  const FaceCentres faces(mesh);
+  const double spacing = spacing_of(mesh, scan);
+  std::vector<std::uint32_t> result = known, others;
+  FaceCentres of_others;
+  for (std::uint32_t f = 0; f < result.size(); ++f) {
+    const std::uint32_t v = known[f];
+    if ((scan.mesh.vertices[v] - faces.centroids[f]).norm() <= near * spacing &&
+        faces.normals[f].dot(scan.vertex_normals[v]) >= 0)
+      continue;
+    others.push_back(f);
+    of_others.centroids.push_back(faces.centroids[f]);
+    of_others.normals.push_back(faces.normals[f]);
   }
-  const double spacing = std::sqrt(scan.area / static_cast<double>(mesh.triangles.size()));
-  return net.empty() ? nearest_vertices(centroids, normals, scan.mesh, spacing)
-                     : nearest_vertices_of_patch(centroids, normals, net.patch_of_face, scan.mesh, scan.patch_of_vertex,
-                                                 spacing);
+  if (others.empty()) return result;
+  const std::vector<std::uint32_t> found = nearest_vertices(of_others.centroids, of_others.normals, scan.mesh, spacing);
+  for (std::size_t i = 0; i < others.size(); ++i) result[others[i]] = found[i];
+  return result;
 }
 
 SurfaceDefects find_defects(const SurfaceMesh& mesh, const ReferenceSurface& scan,

@@ -27,6 +27,11 @@ std::vector<std::uint32_t> scan_vertices_of_faces(const SurfaceMesh& mesh, const
 std::vector<std::uint32_t> scan_vertices_of_faces(const SurfaceMesh& mesh, const FeatureNet& net,
                                                   const ReferenceSurface& scan);
 
+// The same without features: `known` ones are taken where they are on the same side and within half an edge, and the
+// others alone are searched for; a large scan's tree is not made where there are none.
+std::vector<std::uint32_t> scan_vertices_of_faces(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& known,
+                                                  const ReferenceSurface& scan);
+
 // A face counts as inverted if its normal opposes the scan's everywhere within an edge length of its centroid: where
 // the scan turns over in less than that, as in the folds of an ear, no face can follow it and none is wrong. `near`:
 // scan_vertices_of_faces, of the mesh or of one whose faces moved little since. About O(n log n).

@@ -136,7 +136,9 @@ MendResult mend_surface(SurfaceMesh& mesh, const FeatureNet& given_net, const Re
   }
   if (options.keep_volume) preserve_volume(mesh, scan.whole, options.constraints);
   MendResult result;
-  std::vector<std::uint32_t> near = scan_vertices_of_faces(mesh, net, scan);
+  std::vector<std::uint32_t> near = net.empty() && !options.scan_vertex_of_face.empty()
+                                        ? scan_vertices_of_faces(mesh, options.scan_vertex_of_face, scan)
+                                        : scan_vertices_of_faces(mesh, net, scan);
   const auto find = [&] {
     SurfaceDefects defects = find_defects(mesh, scan, near, options.least_angle_deg);
     drop_own_angles(defects, mesh, lines, options.least_angle_deg);

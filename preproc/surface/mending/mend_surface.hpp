@@ -29,6 +29,8 @@ struct MendOptions {
   VertexConstraints constraints;
   // As of ShapeFitOptions; where absent, a k-d tree finds them when they are needed.
   std::optional<std::vector<std::uint32_t>> nearest_vertex_of_scan_vertex;
+  // As a fit without features knows them, or nothing: see scan_vertices_of_faces.
+  std::vector<std::uint32_t> scan_vertex_of_face;
 };
 
 struct MendResult {

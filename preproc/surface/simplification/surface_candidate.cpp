@@ -136,6 +136,7 @@ Candidate by_lattice(const PreparedScanPointer& prepared, const SizingOptions& s
   candidate.fit = optimise_shape_and_fit(candidate.mesh, candidate.net, scan.reference(), fit, progress);
   MendOptions mending;
   mending.nearest_vertex_of_scan_vertex = std::move(fit.nearest_vertex_of_scan_vertex);
+  mending.scan_vertex_of_face = std::move(candidate.fit.scan_vertex_of_face);
   // On parts with edges, not much looser than the fit: what is plane stays plane.
   if (scan.has_creases()) {
     mending.fidelity_of_diagonal = candidate.fit.fidelity_of_diagonal;
