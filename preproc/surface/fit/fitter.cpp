@@ -1,7 +1,6 @@
 #include "preproc/surface/fit/fitter.hpp"
 
 #include "preproc/surface/kernel/nearest.hpp"
-#include "preproc/surface/kernel/parallel_blocks.hpp"
 #include "preproc/surface/kernel/rings.hpp"
 
 #include <Eigen/LU>
@@ -280,11 +279,11 @@ std::size_t Fitter::body_of(const ByFace& by_face, std::size_t f) const {
   return on_scan_.empty() ? 0 : scan_.body_of_vertex[scan_.mesh.triangles[on_scan_[face_samples.size() * f].face][0]];
 }
 
-// Condenses a face's samples, and adds how far they are.
-void Fitter::condense(const ByFace& by_face, std::size_t f, Distances& distances) {
+double Fitter::condense(const ByFace& by_face, std::size_t f) {
   const double share = options_.both_sides ? 0.5 : 1.0;
   FaceFit& fit = fits_[f] = {};
   PointFit& points = point_fits_[f] = {};
+  double largest = 0;
   fit.normal = normals_[f];
   const double area = area_vector(mesh_, mesh_.triangles[f]).norm() / 2;
   const double held_area = options_.hold_faces_below * scan_.area / static_cast<double>(fits_.size());
@@ -294,44 +293,55 @@ void Fitter::condense(const ByFace& by_face, std::size_t f, Distances& distances
     const std::uint32_t s = by_face.order[k];
     const Vec3 to_target = forward_.samples[s].point - point_at(mesh_, locations_[s]);
     const double squared = to_target.squaredNorm(), weight = forward_.samples[s].weight;
-    distances.of_scan.add(squared, weight);
-    distances.largest_squared = std::max(distances.largest_squared, squared);
+    squared_[s] = squared;
+    largest = std::max(largest, squared);
     add_sample(fit, points, locations_[s].barycentric, to_target,
                hold * share * weight_unit_ * weight * lift(body * squared), locations_[s].clamped);
   }
-  if (!options_.both_sides || !has_free_vertex(f)) return;
+  if (!options_.both_sides || !has_free_vertex(f)) return largest;
   for (std::size_t k = 0; k < face_samples.size(); ++k) {
     const Vec3 on_scan = point_at(scan_.mesh, on_scan_[face_samples.size() * f + k]);
     const Vec3 to_target = on_scan - point_at(mesh_, {static_cast<std::uint32_t>(f), false, face_samples[k]});
     const double squared = to_target.squaredNorm();
-    distances.of_mesh.add(squared, area);
-    distances.largest_squared = std::max(distances.largest_squared, squared);
+    squared_on_scan_[face_samples.size() * f + k] = squared;
+    largest = std::max(largest, squared);
     add_sample(fit, points, face_samples[k], to_target, hold * share * weight_unit_ * area / 4 * lift(body * squared),
                false);
   }
+  return largest;
 }
 
 void Fitter::condense_all(const ByFace& by_face, ShapeFitResult& result) {
   located_ = mesh_.vertices;
-  std::vector<double>& largest = result.largest_distance_of_face;
-  largest.resize(fits_.size());
-  // Sums by block, added in their order: the same for any number of threads.
-  std::vector<Distances> of_block(parallel_block_count(fits_.size()));
-  for_each_block(fits_.size(), [&](std::size_t first, std::size_t last) {
-    Distances& block = of_block[first / parallel_block_size];
-    for (std::size_t f = first; f < last; ++f) {
-      block.largest_squared = 0;
-      condense(by_face, f, block);
-      largest[f] = std::sqrt(block.largest_squared);
-    }
+  squared_.resize(locations_.size());
+  squared_on_scan_.resize(on_scan_.size());
+  result.largest_distance_of_face.resize(fits_.size());
+  tbb::parallel_for(Range(0, fits_.size(), 128), [&](const Range& range) {
+    for (std::size_t f = range.begin(); f < range.end(); ++f)
+      result.largest_distance_of_face[f] = std::sqrt(condense(by_face, f));
   });
-  Distances all;
-  for (const Distances& block : of_block) {
-    all.of_scan.add(block.of_scan);
-    all.of_mesh.add(block.of_mesh);
+  measure(result);
+}
+
+void Fitter::measure(ShapeFitResult& result) {
+  double sum = 0, total = 0;
+  const auto mean = [&] { return total > 0 ? std::sqrt(sum / total) : 0; };
+  for (std::size_t s = 0; s < squared_.size(); ++s) {
+    sum += forward_.samples[s].weight * squared_[s];
+    total += forward_.samples[s].weight;
   }
-  result.rms_distance = std::max(all.of_scan.rms(), all.of_mesh.rms());
-  result.largest_distance = *std::max_element(largest.begin(), largest.end());
+  result.rms_distance = mean();
+  sum = total = 0;
+  for (std::size_t s = 0; s < squared_on_scan_.size(); ++s) {
+    const std::size_t f = s / face_samples.size();
+    if (!has_free_vertex(f)) continue;
+    const double weight = area_vector(mesh_, mesh_.triangles[f]).norm();
+    sum += weight * squared_on_scan_[s];
+    total += weight;
+  }
+  result.rms_distance = std::max(result.rms_distance, mean());
+  result.largest_distance =
+      *std::max_element(result.largest_distance_of_face.begin(), result.largest_distance_of_face.end());
   result.samples = locations_.size() + on_scan_.size();
   result.scan_vertex_of_face.resize(on_scan_.size() / face_samples.size());
   for (std::size_t f = 0; f < result.scan_vertex_of_face.size(); ++f)
@@ -345,7 +355,7 @@ void Fitter::measure_bodies() {
   std::vector<double> sum(scan_.diagonal_of_body.size(), 0), total(sum);
   for (std::size_t s = 0; s < locations_.size(); ++s) {
     const std::uint32_t b = scan_.body_of_vertex[forward_.vertex[s]];
-    sum[b] += forward_.samples[s].weight * (forward_.samples[s].point - point_at(mesh_, locations_[s])).squaredNorm();
+    sum[b] += forward_.samples[s].weight * squared_[s];
     total[b] += forward_.samples[s].weight;
   }
   distance_of_body_.assign(sum.size(), 0);

@@ -13,7 +13,6 @@
 #include <Eigen/Core>
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -60,23 +59,6 @@ class Fitter {
   };
   static ByFace sort_by_face(const std::vector<Location>& locations, std::size_t faces);
 
-  struct MeanSquare {
-    double sum = 0, weight = 0;
-    void add(double squared, double of) {
-      sum += of * squared;
-      weight += of;
-    }
-    void add(const MeanSquare& other) {
-      sum += other.sum;
-      weight += other.weight;
-    }
-    double rms() const { return weight > 0 ? std::sqrt(sum / weight) : 0; }
-  };
-  struct Distances {
-    MeanSquare of_scan, of_mesh;  // of the samples of each
-    double largest_squared = 0;
-  };
-
   // Of the faces around a vertex.
   double energy(std::span<const std::uint32_t> copies) const;
   std::array<Vec3, 3> moved_corners(const Triangle& t) const;
@@ -97,8 +79,9 @@ class Fitter {
   double lift(double squared_distance) const;
   // That the face lies on.
   std::size_t body_of(const ByFace& by_face, std::size_t f) const;
-  void condense(const ByFace& by_face, std::size_t f, Distances& distances);
+  double condense(const ByFace& by_face, std::size_t f);  // returns the largest squared distance of its samples
   void condense_all(const ByFace& by_face, ShapeFitResult& result);
+  void measure(ShapeFitResult& result);
   void measure_bodies();
 
   // Adds the derivatives of the energy by the place of v. False where a face around it has no area.
@@ -118,9 +101,10 @@ class Fitter {
   std::vector<double> weight_of_body_, distance_of_body_;  // by ReferenceSurface's bodies; one weight for one body
   SurfaceSamples forward_;
   std::vector<Vec3> normals_;
-  std::vector<Location> locations_;  // of the scan's samples on the mesh
-  std::vector<Location> on_scan_;    // of the mesh's samples on the scan, four a face
-  std::vector<Vec3> located_;        // the vertices when the samples were located
+  std::vector<Location> locations_;                // of the scan's samples on the mesh
+  std::vector<Location> on_scan_;                  // of the mesh's samples on the scan, four a face
+  std::vector<double> squared_, squared_on_scan_;  // distances of both
+  std::vector<Vec3> located_;                      // the vertices when the samples were located
   std::vector<FaceFit> fits_;
   std::vector<PointFit> point_fits_;
 };
