@@ -177,7 +177,6 @@ PipelineResult run_pipeline(SurfaceMesh scan, const PipelineOptions& options, co
   StageLog log(result.stages, listener);
   SimplifyOptions simplification = options.simplify.value_or(SimplifyOptions{});
   simplification.size = in_model_units(simplification.size, bounding_box(scan.vertices));
-  simplification.for_tetrahedra |= options.tetrahedralize.has_value();
   if (options.repair)
     log.run("repair", [&](StageRecord& record) { describe(repair(scan, *options.repair, progress), record); });
   result.scan = std::move(scan);

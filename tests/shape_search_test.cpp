@@ -15,10 +15,9 @@
 namespace scan2fea {
 namespace {
 
-SimplifyOptions for_tetrahedra(std::size_t faces) {
+SimplifyOptions of_faces(std::size_t faces) {
   SimplifyOptions options;
   options.size = FaceCount{faces};
-  options.for_tetrahedra = true;
   return options;
 }
 
@@ -33,7 +32,7 @@ void expect_sound(const SurfaceMesh& mesh, const SurfaceMesh& scan) {
 TEST(ShapeSearch, ABlockOfFewTrianglesIsWellShapedAndKeepsItsEdges) {
   const SurfaceMesh scan = analytic::box({4, 4, 2}, 4);
   SurfaceMesh mesh = scan;
-  const SimplifyResult result = simplify(mesh, for_tetrahedra(30));
+  const SimplifyResult result = simplify(mesh, of_faces(30));
   expect_sound(mesh, scan);
   EXPECT_GE(measure_triangles(mesh).min_angle_deg.min, 25);
   EXPECT_EQ(result.faces_after, mesh.triangles.size());
@@ -45,21 +44,9 @@ TEST(ShapeSearch, ABlockOfFewTrianglesIsWellShapedAndKeepsItsEdges) {
 TEST(ShapeSearch, AThinWallGetsTrianglesThatLeaveElementsAHeight) {
   const SurfaceMesh scan = analytic::box({10, 10, 0.5}, 0.5);
   SurfaceMesh mesh = scan;
-  simplify(mesh, for_tetrahedra(200));  // edges of about 1.6
+  simplify(mesh, of_faces(200));  // edges of about 1.6
   expect_sound(mesh, scan);
   EXPECT_GE(0.5 / mean_edge_length(mesh), 0.35);
-}
-
-TEST(ShapeSearch, WhatIsWellShapedStaysAsItIs) {
-  const SurfaceMesh scan = analytic::sphere(1, 5);
-  SurfaceMesh plain = scan, shaped = scan;
-  SimplifyOptions options = for_tetrahedra(2000);
-  simplify(shaped, options);
-  options.for_tetrahedra = false;
-  const SimplifyResult result = simplify(plain, options);
-  EXPECT_EQ(result.size_remark, "");
-  EXPECT_EQ(plain.vertices, shaped.vertices);
-  EXPECT_EQ(plain.triangles, shaped.triangles);
 }
 
 constexpr std::uint32_t points_a_ray = 10;

@@ -28,7 +28,6 @@ struct Chain {
 
   explicit Chain(SurfaceMesh of, double ratio) : scan(std::move(of)) {
     simplification.size = FaceRatio{ratio};
-    simplification.for_tetrahedra = true;
     search.emplace(scan, simplification);
     made.simplified = search->run(made.surface);
     made.filled = tetrahedralize(made.surface, tetrahedralization);

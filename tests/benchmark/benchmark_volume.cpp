@@ -154,7 +154,6 @@ SurfaceMesh simplified(SurfaceMesh scan, const TargetSize& size, Sizing sizing, 
   options.simplify->size = size;
   options.simplify->sizing = sizing;
   options.simplify->features = features;
-  options.simplify->for_tetrahedra = true;
   options.tetrahedralize.reset();
   return run_pipeline(std::move(scan), options).surface;
 }

@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <optional>
 
 namespace scan2fea {
 namespace {
@@ -22,14 +21,13 @@ constexpr double flat = 0.7;
 
 class ShapeCheck {
  public:
-  ShapeCheck(const Candidate& candidate, const ShapeLimits& limits)
+  ShapeCheck(const Candidate& candidate, double least_angle_deg)
       : mesh_(candidate.mesh),
-        limits_(limits),
+        least_angle_deg_(least_angle_deg),
+        tree_(candidate.mesh),
         neighbours_(face_neighbours(candidate.mesh, VertexStars(candidate.mesh))),
         normals_(vertex_normals(candidate.mesh)),
-        creases_(edges_of(candidate.net)) {
-    if (limits.walls) tree_.emplace(mesh_);
-  }
+        creases_(edges_of(candidate.net)) {}
 
   ShapeDefects defects() const {
     ShapeDefects found;
@@ -37,12 +35,12 @@ class ShapeCheck {
       const auto& [a, b, c] = mesh_.triangles[f];
       const Vec3 &p = mesh_.vertices[a], &q = mesh_.vertices[b], &r = mesh_.vertices[c];
       const double longest = std::max({(q - p).norm(), (r - q).norm(), (p - r).norm()});
-      double angle = tree_ ? wall_angle(f) : 180;
+      double angle = wall_angle(f);
       for (std::uint32_t k = 0; k < 3; ++k)
         angle = std::min({angle, corner_angle(f, k, longest, found), half_wedge(f, k)});
       found.least_angle_deg = std::min(found.least_angle_deg, angle);
-      if (angle < limits_.least_angle_deg)
-        found.bad.push_back(shorter_edges((p + q + r) / 3, longest, angle, limits_.least_angle_deg));
+      if (angle < least_angle_deg_)
+        found.bad.push_back(shorter_edges((p + q + r) / 3, longest, angle, least_angle_deg_));
     }
     return found;
   }
@@ -56,8 +54,8 @@ class ShapeCheck {
     const Triangle& t = mesh_.triangles[f];
     const std::uint32_t v = t[k], next = t[(k + 1) % 3], last = t[(k + 2) % 3];
     const double angle = angle_deg(mesh_.vertices[v], mesh_.vertices[next], mesh_.vertices[last]);
-    if (!(angle < limits_.least_angle_deg) || !is_crease(v, next) || !is_crease(v, last)) return angle;
-    if (angle < std::min(least_corner_deg, limits_.least_angle_deg)) {
+    if (!(angle < least_angle_deg_) || !is_crease(v, next) || !is_crease(v, last)) return angle;
+    if (angle < std::min(least_corner_deg, least_angle_deg_)) {
       found.sharp_corners.push_back({mesh_.vertices[v], longest});
       found.sharpest_corner_deg = std::min(found.sharpest_corner_deg, angle);
     }
@@ -75,8 +73,8 @@ class ShapeCheck {
     if (n.dot(m) > 0) return 180;
     const Vec3 along = (mesh_.vertices[b] - mesh_.vertices[a]).normalized();
     const double half = interior_angle(n, m, along) / 2 * degrees;
-    if (half < limits_.least_angle_deg && is_crease(a, b))
-      return 2 * half >= std::min(least_corner_deg, limits_.least_angle_deg) ? 180 : 2 * half;
+    if (half < least_angle_deg_ && is_crease(a, b))
+      return 2 * half >= std::min(least_corner_deg, least_angle_deg_) ? 180 : 2 * half;
     return half;
   }
 
@@ -88,7 +86,7 @@ class ShapeCheck {
   double wall_angle(const Vec3& place, const Vec3& outward, double edge, std::uint32_t f) const {
     const double depth = deepest_wall / 2 * edge;
     const Vec3 inside = place - depth * outward;
-    const ClosestPoint nearest = tree_->closest(inside, f);
+    const ClosestPoint nearest = tree_.closest(inside, f);
     const double distance = std::sqrt(nearest.squared_distance);
     const Triangle& other = mesh_.triangles[nearest.triangle];
     const Vec3 opposite = area_vector(mesh_, other);
@@ -99,7 +97,7 @@ class ShapeCheck {
     const bool beyond = (inside - nearest.point).dot(opposite) > 0;
     const double thickness = beyond ? depth - distance : depth + distance;
     const double angle = std::atan(thickness / (std::sqrt(0.75) * edge)) * degrees;
-    return angle < std::min(least_across_wall_deg, limits_.least_angle_deg) ? angle : 180;
+    return angle < std::min(least_across_wall_deg, least_angle_deg_) ? angle : 180;
   }
 
   // Behind its centre, its corners and the middles of its sides, where these are not on edges of the part.
@@ -123,8 +121,8 @@ class ShapeCheck {
   }
 
   const SurfaceMesh& mesh_;
-  ShapeLimits limits_;
-  std::optional<TriangleTree> tree_;
+  double least_angle_deg_;
+  TriangleTree tree_;
   std::vector<Triangle> neighbours_;
   std::vector<Vec3> normals_;
   std::vector<FeatureEdge> creases_;
@@ -132,8 +130,8 @@ class ShapeCheck {
 
 }  // namespace
 
-ShapeDefects find_shape_defects(const Candidate& candidate, const ShapeLimits& limits) {
-  return ShapeCheck(candidate, limits).defects();
+ShapeDefects find_shape_defects(const Candidate& candidate, double least_angle_deg) {
+  return ShapeCheck(candidate, least_angle_deg).defects();
 }
 
 }  // namespace scan2fea

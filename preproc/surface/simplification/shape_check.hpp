@@ -21,14 +21,8 @@ struct ShapeDefects {
   double sharpest() const { return std::min(least_angle_deg, sharpest_corner_deg); }
 };
 
-// What counts as bad.
-struct ShapeLimits {
-  double least_angle_deg = 30;  // of triangles, and of half of a fold
-  bool walls = true;            // elements across them, below 25 degrees, or `least_angle_deg` if that is less
-};
-
-// Corners between two creases are bad only below 19 degrees, or `least_angle_deg`. O(n); with walls O(n log n), three
-// searches a triangle.
-ShapeDefects find_shape_defects(const Candidate& candidate, const ShapeLimits& limits);
+// Bad are triangles and halves of folds below `least_angle_deg`; corners between two creases only below 19 degrees, and
+// elements across walls below 25, or `least_angle_deg` if that is less. O(n log n), three searches a triangle.
+ShapeDefects find_shape_defects(const Candidate& candidate, double least_angle_deg);
 
 }  // namespace scan2fea

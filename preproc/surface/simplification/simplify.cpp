@@ -98,7 +98,7 @@ std::optional<SurfaceMesh> with_smaller_faces(const SurfaceMesh& mesh, const Sim
       options.method == SimplifyMethod::lattice && !std::holds_alternative<LargestDeviation>(options.size) &&
       area > equilateral_area * edge * edge * largest_face * static_cast<double>(mesh.triangles.size());
   if (features.empty() && options.limits.empty() && !few_faces) return {};
-  const double finest = options.for_tetrahedra ? equilateral_edge(area, triangles_of_small_part) : edge;
+  const double finest = equilateral_edge(area, triangles_of_small_part);
   SurfaceMesh parted = mesh;
   std::vector<double> length(mesh.vertices.size(), std::min(edge, finest));
   halve_long_edges(parted, length, features, longest_edge_of_part, longest_edge_of_part);

@@ -52,9 +52,6 @@ struct SimplifyOptions {
   Sizing sizing = Sizing::curvature;
   double gradation = 0.12;  // largest |grad h| of the edge length h, 0.02 to 1; smaller is smoother
   SizeLimits limits;        // for the `lattice` method
-  // Folds of the triangles and walls thinner than they are mended as bad triangles are, since they bound the angles of
-  // tetrahedra.
-  bool for_tetrahedra = false;
   // Creases and their corners are kept exactly by the `lattice` method, and open borders always are. The angle unset:
   // no creases.
   FeatureOptions features;

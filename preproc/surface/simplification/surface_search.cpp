@@ -261,9 +261,8 @@ SurfaceSearch::Trial SurfaceSearch::judged(Candidate candidate, const Progress& 
     lower_worst(made.candidate, options_.effort, progress);
   mend_shape(made, progress);
   made.mean_edge_ratio = measure_triangles(made.candidate.mesh).edge_ratio.mean;
-  const bool few = made.candidate.faces() < many_triangles && options_.for_tetrahedra && !wanted_.deviation;
-  made.shape = find_shape_defects(
-      made.candidate, {.least_angle_deg = few ? good_of_few_deg : good_of_many_deg, .walls = options_.for_tetrahedra});
+  const bool few = made.candidate.faces() < many_triangles && !wanted_.deviation;
+  made.shape = find_shape_defects(made.candidate, few ? good_of_few_deg : good_of_many_deg);
   made.is_other_part = made.lost_creases(*scan_) && wanted_.triangles < few_triangles_of_part && !wanted_.deviation;
   return made;
 }
@@ -317,12 +316,10 @@ void SurfaceSearch::bring_within(Trial& made, const Progress& progress) const {
   }
 }
 
-// Few bad triangles, folds and wedges are mended where they are. Not where nothing else asks for the tree of the scan
-// that it takes: on a large one it would be the peak of the memory.
+// Few bad triangles, folds and wedges are mended where they are. No tree of the scan is made for this alone: on a large
+// one it would be the peak of the memory.
 void SurfaceSearch::mend_shape(Trial& made, const Progress& progress) const {
-  if (!wanted_.deviation && !options_.for_tetrahedra) return;
-  const ShapeLimits limits{.least_angle_deg = mended_deg, .walls = options_.for_tetrahedra};
-  const std::vector<ShorterEdges> bad = find_shape_defects(made.candidate, limits).bad;
+  const std::vector<ShorterEdges> bad = find_shape_defects(made.candidate, mended_deg).bad;
   if (bad.empty() || made.candidate.method != SimplifyMethod::lattice ||
       static_cast<double>(bad.size()) > few_bad_places * static_cast<double>(made.candidate.faces()))
     return;
@@ -335,9 +332,9 @@ void SurfaceSearch::mend_shape(Trial& made, const Progress& progress) const {
   options.least_angle_deg = mended_deg;
   // What is plane stays plane.
   if (scan.has_creases()) options.fidelity_of_diagonal = made.candidate.fit.fidelity_of_diagonal;
-  const MendPlacesResult result =
-      mend_places(mesh, mended.candidate.net, scan.reference(), &scan.deviation_reference().tree(),
-                  without_overlaps(bad), options, progress);
+  const MendPlacesResult result = mend_places(mesh, mended.candidate.net, scan.reference(),
+                                              wanted_.deviation ? &scan.deviation_reference().tree() : nullptr,
+                                              without_overlaps(bad), options, progress);
   if (result.mended == 0) return;
   if (scan.is_closed()) preserve_volume_clear(mesh, scan.mesh, held_lines(mended.candidate.net, mesh.vertices.size()));
   if (wanted_.deviation)
@@ -357,8 +354,8 @@ bool SurfaceSearch::is_shapely(const Trial& made) const {
 bool SurfaceSearch::is_accepted(const Trial& made) const {
   if (!holds(made) || !is_shapely(made) || made.is_other_part) return false;
   // Of very many triangles another lattice costs far more than the few places that it may mend are worth.
-  return made.shape.empty() || (!options_.for_tetrahedra && !made.gave_way() && !made.has_many_bad() &&
-                                made.candidate.faces() >= very_many_triangles);
+  return made.shape.empty() ||
+         (!made.gave_way() && !made.has_many_bad() && made.candidate.faces() >= very_many_triangles);
 }
 
 // Corners of the part stay about as they are; what else is bad decides then.
