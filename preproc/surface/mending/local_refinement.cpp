@@ -27,6 +27,8 @@ constexpr double reserve = 0.01;
 // as long there; then all is tried again, so often.
 constexpr double shortening = 0.6;
 constexpr int most_shortenings = 3;
+// Where that is in vain, too, smaller angles are allowed, by so much at each time.
+constexpr double yielding_deg = 10, most_yielding_deg = 20;
 
 struct Place {
   std::uint32_t face;  // of the mesh
@@ -261,9 +263,16 @@ BoundedRefinementResult refine_within(SurfaceMesh& mesh, FeatureNet& net, const 
       how = Mending::improve;
       continue;
     }
-    if (how == Mending::shorten || shortened++ == most_shortenings) break;
-    how = Mending::shorten;
     hopeless.clear();
+    if (how == Mending::improve && shortened++ < most_shortenings) {
+      how = Mending::shorten;
+    } else if (left.least_angle_deg > options.least_angle_deg - most_yielding_deg) {
+      left.least_angle_deg = std::max(0.0, left.least_angle_deg - yielding_deg);
+      how = Mending::improve;
+      shortened = 0;
+    } else {
+      break;
+    }
   }
   return result;
 }

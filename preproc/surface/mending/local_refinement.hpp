@@ -50,7 +50,7 @@ struct BoundedRefinementResult {
 };
 
 // Rounds of bounding and mending until the limit holds for every point, or nothing helps: the result says how near it
-// came. Where nothing does, edges are made shorter there first.
+// came. Where nothing does, edges are made shorter there, then smaller angles allowed.
 // Not guaranteed: the fewest triangles. One bound of the whole surface, and each round a bound of what has changed.
 BoundedRefinementResult refine_within(SurfaceMesh& mesh, const ReferenceSurface& scan,
                                       const LocalRefinementOptions& options, const Progress& progress = {});

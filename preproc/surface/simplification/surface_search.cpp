@@ -53,7 +53,7 @@ constexpr double few_triangles_of_part = 1000;
 
 // The share of faces too far that is left to the mending of places: more are cheaper mended by other lengths, all at
 // once. The second is for the last surface, when there is no other way.
-constexpr double few_beyond = 0.12, most_beyond = 0.15;
+constexpr double few_beyond = 0.08, most_beyond = 0.15;
 
 // Where triangles as large as the deviation allows are too large for the part's edges, smaller ones keep their shape.
 // The bound is where isotropic remeshing with kept edges ends (CGAL: 1.18 to 1.21 on plates, cubes and cylinders).
