@@ -2,9 +2,7 @@
 
 #include "preproc/surface/fit/shape_fit.hpp"
 #include "preproc/surface/kernel/locate.hpp"
-#include "preproc/surface/kernel/nearest.hpp"
 #include "preproc/surface/mending/constraint_projection.hpp"
-#include "preproc/surface/sizing/split_long_edges.hpp"
 #include "quality/deviation_bound.hpp"
 #include "quality/self_intersections.hpp"
 #include "quality/triangle_measures.hpp"
@@ -15,13 +13,10 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
-#include <unordered_map>
 
 namespace scan2fea {
 namespace {
 
-// Scan triangles longer than this part of the mean edge are cut, so that a patch answers for parts of large ones.
-constexpr double longest_scan_edge = 0.7;
 // Where the fit's extra weight on far samples begins, over the limit, and the most that it may be: a sample at twice
 // the limit has nearly all of it (see ShapeFitOptions::lift_tail_of_diagonal).
 constexpr double tail_of_limit = 0.5;
@@ -36,9 +31,6 @@ constexpr double ease_outside = 3;
 constexpr double turning_about_line_deg = 5;
 // What samples may show of the limit: bounds are a little larger.
 constexpr double sampled_limit = 0.985;
-// Within this part of the limit of the surface around, vertices of the scan are held by it: what lies between them may
-// be a little farther.
-constexpr double held_within = 0.75;
 // A face is asked at the points of a grid of so many steps a side.
 constexpr int grid = 4;
 // Points are pulled to this part of the limit, several times round, since what brings one nearer moves others; those
@@ -47,70 +39,6 @@ constexpr int pulls = 8;
 constexpr double pulled_within = 0.93, well_within = 0.75;
 // Folds are opened a little more than is wanted, at each time round by at most so much of an edge.
 constexpr double opened_beyond_deg = 2, longest_opening = 0.2;
-
-Vec3 centroid(const SurfaceMesh& mesh, const Triangle& t) {
-  return (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3;
-}
-
-// The marked faces, as a surface of their own.
-SurfaceMesh selected(const SurfaceMesh& mesh, const std::vector<bool>& keep, std::vector<std::uint32_t>& vertices) {
-  constexpr std::uint32_t none = ~0U;
-  std::vector<std::uint32_t> place(mesh.vertices.size(), none);
-  SurfaceMesh part;
-  for (std::uint32_t f = 0; f < keep.size(); ++f) {
-    if (!keep[f]) continue;
-    Triangle t = mesh.triangles[f];
-    for (std::uint32_t& v : t) {
-      if (place[v] == none) {
-        place[v] = static_cast<std::uint32_t>(vertices.size());
-        vertices.push_back(v);
-        part.vertices.push_back(mesh.vertices[v]);
-      }
-      v = place[v];
-    }
-    part.triangles.push_back(t);
-  }
-  return part;
-}
-
-// The scan with its triangles cut where they are long, for a mesh of this edge length.
-SurfaceMesh cut_fine(const SurfaceMesh& scan, double edge) {
-  const double longest = longest_scan_edge * edge;
-  const bool is_fine = std::all_of(scan.triangles.begin(), scan.triangles.end(), [&](const Triangle& t) {
-    const Vec3 &a = scan.vertices[t[0]], &b = scan.vertices[t[1]], &c = scan.vertices[t[2]];
-    return std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}) <= longest * longest;
-  });
-  if (is_fine) return scan;
-  return refine_scan(scan, {std::vector<double>(scan.vertices.size(), edge)}, longest_scan_edge, 8).mesh;
-}
-
-// Per face of the scan, the face of the mesh that it belongs to: the nearest, or where that looks another way, as
-// across a wall, the nearest of those that do not.
-std::vector<std::uint32_t> faces_beneath(const SurfaceMesh& scan, const SurfaceMesh& mesh, double edge) {
-  const MeshAdjacency adjacency(mesh);
-  const std::vector<Vec3> normals = face_normals(mesh), scan_normals = face_normals(scan);
-  const WalkableMesh on{mesh, adjacency.stars, adjacency.neighbours, normals};
-  const TriangleTree tree(mesh);
-  constexpr double alike = 0.6;  // cosine of 53 degrees, as where samples are located
-  std::vector<std::uint32_t> beneath(scan.triangles.size()), astray;
-  std::vector<Vec3> points, their_normals;
-  std::uint32_t hint = tree.leaf_order().front();
-  for (std::uint32_t f = 0; f < beneath.size(); ++f) {
-    const Vec3 centre = centroid(scan, scan.triangles[f]);
-    beneath[f] = hint = tree.closest(centre, hint).triangle;
-    if (normals[hint].dot(scan_normals[f]) > alike) continue;
-    astray.push_back(f);
-    points.push_back(centre);
-    their_normals.push_back(scan_normals[f]);
-  }
-  if (astray.empty()) return beneath;
-  const std::vector<std::uint32_t> start = nearest_vertices(points, their_normals, mesh, edge);
-  for (std::size_t i = 0; i < astray.size(); ++i) {
-    const std::uint32_t first = adjacency.stars.corners(start[i]).front() / 3;
-    beneath[astray[i]] = descend_to_nearest(on, {points[i], their_normals[i], 0}, first).face;
-  }
-  return beneath;
-}
 
 // Sides of faces by edge, so that the two of one edge are neighbours in the list.
 struct Side {
@@ -176,26 +104,6 @@ std::vector<FeatureEdge> sorted_edges(const std::vector<LineEdge>& lines) {
 
 }  // namespace
 
-SurfaceMesh part_of(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& faces,
-                    std::vector<std::uint32_t>& vertices) {
-  std::unordered_map<std::uint32_t, std::uint32_t> place;
-  for (std::uint32_t i = 0; i < vertices.size(); ++i) place.emplace(vertices[i], i);
-  SurfaceMesh part;
-  part.triangles.reserve(faces.size());
-  for (const std::uint32_t f : faces) {
-    Triangle t = mesh.triangles[f];
-    for (std::uint32_t& v : t) {
-      const auto [at, is_new] = place.emplace(v, static_cast<std::uint32_t>(vertices.size()));
-      if (is_new) vertices.push_back(v);
-      v = at->second;
-    }
-    part.triangles.push_back(t);
-  }
-  part.vertices.reserve(vertices.size());
-  for (const std::uint32_t v : vertices) part.vertices.push_back(mesh.vertices[v]);
-  return part;
-}
-
 Surroundings::Surroundings(const SurfaceMesh& mesh, const PatchOutline& outline, const SurfaceMesh& patch,
                            const std::vector<std::uint32_t>& around, const SurfaceMesh& scan,
                            const std::vector<std::uint32_t>& scan_faces, const PatchGoal& goal)
@@ -203,7 +111,8 @@ Surroundings::Surroundings(const SurfaceMesh& mesh, const PatchOutline& outline,
   std::vector<std::uint32_t> vertices = outline.vertices;
   frozen_ = part_of(mesh, around, vertices);
   find_rim_normals(patch);
-  cut_scan(scan, scan_faces, patch);
+  if (!scan_faces.empty())
+    scan_.emplace(scan, scan_faces, patch, frozen_, with_frozen(patch), outline.edge, goal.limit);
 }
 
 void Surroundings::find_rim_normals(const SurfaceMesh& patch) {
@@ -217,51 +126,6 @@ void Surroundings::find_rim_normals(const SurfaceMesh& patch) {
   for (const Side& side : sorted_sides(frozen_))
     if (std::binary_search(rim.begin(), rim.end(), side.edge))
       rim_normals_.emplace_back(side.edge, area_vector(frozen_, frozen_.triangles[side.corner / 3]));
-}
-
-void Surroundings::cut_scan(const SurfaceMesh& scan, const std::vector<std::uint32_t>& scan_faces,
-                            const SurfaceMesh& patch) {
-  if (scan_faces.empty()) return;
-  std::vector<std::uint32_t> vertices;
-  scan_ = part_of(scan, scan_faces, vertices);
-  scan_reference_.emplace(scan_);
-  const SurfaceMesh fine = cut_fine(scan_, outline_.edge);
-  const std::vector<std::uint32_t> beneath = faces_beneath(fine, with_frozen(patch), outline_.edge);
-  const std::vector<bool> is_free = left_to_patch(fine.vertices, patch);
-  std::vector<bool> fits(fine.triangles.size()), answered(fine.triangles.size());
-  std::vector<std::uint32_t> near(fine.vertices.size(), 0);
-  for (std::size_t f = 0; f < fits.size(); ++f) {
-    const Triangle& t = fine.triangles[f];
-    fits[f] = beneath[f] < patch.triangles.size();
-    answered[f] = is_free[t[0]] || is_free[t[1]] || is_free[t[2]];
-    if (!fits[f]) continue;
-    for (const std::uint32_t v : t) near[v] = patch.triangles[beneath[f]][0];
-  }
-  std::vector<std::uint32_t> of_fit, of_answered;
-  answered_ = selected(fine, answered, of_answered);
-  for (const std::uint32_t v : of_answered)
-    if (is_free[v]) to_answer_.push_back(fine.vertices[v]);
-  for (const Triangle& t : answered_.triangles)
-    if (std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return is_free[of_answered[v]]; }))
-      to_answer_.push_back(centroid(answered_, t));
-  fit_part_ = selected(fine, fits, of_fit);
-  for (const std::uint32_t v : of_fit) start_of_fit_.push_back(near[v]);
-  if (!fit_part_.triangles.empty()) fit_scan_.emplace(fit_part_);
-}
-
-std::vector<bool> Surroundings::left_to_patch(const std::vector<Vec3>& points, const SurfaceMesh& patch) const {
-  std::vector<bool> left(points.size(), true);
-  if (frozen_.triangles.empty()) return left;
-  const TriangleTree of_patch(patch), of_frozen(frozen_);
-  std::uint32_t hint = of_patch.leaf_order().front();
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    left[i] = !of_frozen.closest_within(points[i], held_within * goal_.limit);
-    if (!left[i]) continue;
-    const ClosestPoint own = of_patch.closest(points[i], hint);
-    hint = own.triangle;
-    left[i] = !of_frozen.closest_within(points[i], std::sqrt(own.squared_distance));
-  }
-  return left;
 }
 
 SurfaceMesh Surroundings::with_frozen(const SurfaceMesh& patch) const {
@@ -283,13 +147,13 @@ void Surroundings::fit(Trial& trial, double fidelity) const {
   options.rounds = 4;
   options.hold_faces_below = 1;
   // The diagonal is that of a piece of the scan: on a tiny one the fidelity would pass 0.1, the most that a fit takes.
-  options.fidelity_of_diagonal = std::min(0.09, fidelity / fit_scan_->diagonal);
-  options.lift_tail_of_diagonal = tail_of_limit * goal_.limit / fit_scan_->diagonal;
+  options.fidelity_of_diagonal = std::min(0.09, fidelity / scan_->fit()->diagonal);
+  options.lift_tail_of_diagonal = tail_of_limit * goal_.limit / scan_->fit()->diagonal;
   options.most_lift = most_lift;
-  options.nearest_vertex_of_scan_vertex = start_of_fit_;
+  options.nearest_vertex_of_scan_vertex = scan_->start_of_fit();
   for (const bool is_held : held_vertices(trial))
     options.constraints.push_back(is_held ? VertexConstraint::fixed : VertexConstraint::free);
-  optimise_shape_and_fit(trial.patch, *fit_scan_, options);
+  optimise_shape_and_fit(trial.patch, *scan_->fit(), options);
 }
 
 // Calls visit(hinge, edge) for each edge between two faces of the patch, or one of it and one of the surface around.
@@ -390,7 +254,7 @@ void Surroundings::pull(Trial& trial) const {
       }
     }
     for (PatchPoint& point : own) {
-      const ClosestPoint nearest = scan_reference_->tree().closest(point_at(patch, point.place), point.scan_face);
+      const ClosestPoint nearest = scan_->reference().tree().closest(point_at(patch, point.place), point.scan_face);
       point.scan_face = nearest.triangle;
       pull_point(patch, held, point.place, nearest.point, near);
     }
@@ -411,7 +275,7 @@ std::vector<Vec3> Surroundings::scan_points_beyond(const SurfaceMesh& patch, dou
   std::vector<Vec3> beyond;
   const TriangleTree tree(patch);
   std::uint32_t near = 0;
-  for (const Vec3& p : to_answer_) {
+  for (const Vec3& p : scan_->to_answer()) {
     if (is_within(patch, near, p, distance)) continue;
     const ClosestPoint nearest = tree.closest(p, near);
     near = nearest.triangle;
@@ -422,9 +286,9 @@ std::vector<Vec3> Surroundings::scan_points_beyond(const SurfaceMesh& patch, dou
 
 std::vector<Surroundings::PatchPoint> Surroundings::own_points_beyond(const SurfaceMesh& patch, double distance) const {
   std::vector<PatchPoint> beyond;
-  std::uint32_t hint = scan_reference_->tree().leaf_order().front();
+  std::uint32_t hint = scan_->reference().tree().leaf_order().front();
   for_each_sample(patch, [&](std::uint32_t f, const Vec3& p) {
-    const ClosestPoint nearest = scan_reference_->tree().closest(p, hint);
+    const ClosestPoint nearest = scan_->reference().tree().closest(p, hint);
     hint = nearest.triangle;
     if (nearest.squared_distance > distance * distance) beyond.push_back({place_of(patch, f, p), hint});
     return true;
@@ -458,15 +322,15 @@ void Surroundings::sample_deviation(Trial& trial, double useful) const {
   };
   const TriangleTree tree(patch);
   std::uint32_t near = 0;
-  for (const Vec3& p : to_answer_) {
+  for (const Vec3& p : scan_->to_answer()) {
     if (is_within(patch, near, p, limit)) continue;
     const ClosestPoint nearest = tree.closest(p, near);
     near = nearest.triangle;
     if (is_useless(near, nearest.squared_distance)) return;
   }
-  std::uint32_t hint = scan_reference_->tree().leaf_order().front();
+  std::uint32_t hint = scan_->reference().tree().leaf_order().front();
   for_each_sample(patch, [&](std::uint32_t f, const Vec3& p) {
-    const ClosestPoint nearest = scan_reference_->tree().closest(p, hint);
+    const ClosestPoint nearest = scan_->reference().tree().closest(p, hint);
     hint = nearest.triangle;
     return !is_useless(f, nearest.squared_distance);
   });
@@ -476,11 +340,12 @@ void Surroundings::sample_deviation(Trial& trial, double useful) const {
 
 void Surroundings::certify(Trial& trial) const {
   const SurfaceMesh& patch = trial.patch;
-  const OneSidedDeviation of_patch = bound_one_sided_deviation(patch, *scan_reference_, {.limit = goal_.limit});
+  const OneSidedDeviation of_patch = bound_one_sided_deviation(patch, scan_->reference(), {.limit = goal_.limit});
   for (std::size_t f = 0; f < trial.deviation.size(); ++f)
     trial.deviation[f] = std::max(trial.deviation[f], of_patch.upper[f]);
-  if (!answered_.triangles.empty()) {
-    const OneSidedDeviation of_scan = bound_one_sided_deviation(answered_, with_frozen(patch), {.limit = goal_.limit});
+  if (!scan_->answered().triangles.empty()) {
+    const OneSidedDeviation of_scan =
+        bound_one_sided_deviation(scan_->answered(), with_frozen(patch), {.limit = goal_.limit});
     const TriangleTree tree(patch);
     for (std::size_t f = 0; f < of_scan.upper.size(); ++f) {
       if (!(of_scan.upper[f] > goal_.limit)) continue;

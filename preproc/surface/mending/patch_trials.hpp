@@ -3,8 +3,8 @@
 
 #include "preproc/mesh/surface_mesh.hpp"
 #include "preproc/surface/features/feature_net.hpp"
-#include "preproc/surface/fit/reference_surface.hpp"
 #include "preproc/surface/kernel/locate.hpp"
+#include "preproc/surface/mending/scan_of_patch.hpp"
 #include "quality/deviation_bound.hpp"
 
 #include <cstddef>
@@ -61,7 +61,7 @@ class Surroundings {
                const std::vector<std::uint32_t>& scan_faces, const PatchGoal& goal);
 
   // False where no part of the scan belongs to the patch: then there is nothing to try.
-  bool has_scan() const { return fit_scan_.has_value(); }
+  bool has_scan() const { return scan_ && scan_->fit(); }
 
   // Shape and fit, see shape_fit.hpp; residuals of `fidelity` cost as much as F(eta) = 1.
   void fit(Trial& trial, double fidelity) const;
@@ -89,11 +89,6 @@ class Surroundings {
   bool is_clear(const Trial& trial) const;
 
  private:
-  // Tells the parts of the scan for which the patch answers.
-  void cut_scan(const SurfaceMesh& scan, const std::vector<std::uint32_t>& scan_faces, const SurfaceMesh& patch);
-  // Per point of the scan, whether it is the patch's to come within the limit of: nearer to it than to the surface
-  // around, and too far from that.
-  std::vector<bool> left_to_patch(const std::vector<Vec3>& points, const SurfaceMesh& patch) const;
   void find_rim_normals(const SurfaceMesh& patch);
 
   struct PatchPoint {
@@ -117,17 +112,7 @@ class Surroundings {
   SurfaceMesh frozen_;  // the surface around; the patch's vertices as they were come first
   // Edges of the rim, sorted, and the normals of the faces beyond them.
   std::vector<std::pair<FeatureEdge, Vec3>> rim_normals_;
-  SurfaceMesh scan_;  // within the box
-  std::optional<DeviationReference> scan_reference_;
-  SurfaceMesh answered_;                     // parts of it that the surface around is too far from
-  std::vector<Vec3> to_answer_;              // vertices of which the same holds, and centroids between them
-  SurfaceMesh fit_part_;                     // and those that belong to the patch
-  std::vector<std::uint32_t> start_of_fit_;  // per vertex of it, one of the patch that is near
-  std::optional<ReferenceSurface> fit_scan_;
+  std::optional<ScanOfPatch> scan_;  // none where the box meets none
 };
-
-// The faces with the vertices that they use; `vertices` says which of the mesh's each was, and may hold some already.
-SurfaceMesh part_of(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& faces,
-                    std::vector<std::uint32_t>& vertices);
 
 }  // namespace scan2fea

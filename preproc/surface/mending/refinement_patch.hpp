@@ -1,10 +1,11 @@
 // A piece of a surface around a place that lies too far from the scan, brought nearer by itself.
 //
-// Tries, in turn: a fit with more weight on what is far (shape_fit.hpp), edges of the worst face and around it flipped
-// (an edge that runs along a ridge follows it, one that crosses it cuts it off), then split at their middle, the
-// longest first, each followed by that fit. The first that is within the limit is taken; where none is, what lowers the
-// deviation most, and it goes on from there. The rest of the surface stays as it is, so that the triangles around are
-// not disturbed and patches apart from each other can be worked on at once.
+// Tries, in turn: the least moves that bring near what is too far (constraint_projection.hpp), a fit with more weight
+// on what is far (shape_fit.hpp), edges of the worst face and around it flipped (an edge that runs along a ridge
+// follows it, one that crosses it cuts it off), then split at their middle, the longest first, each followed by that
+// fit. The first that is within the limit is taken; where none is, what lowers the deviation most, and it goes on from
+// there. The rest of the surface stays as it is, so that the triangles around are not disturbed and patches apart from
+// each other can be worked on at once.
 #pragma once
 
 #include "preproc/mesh/surface_mesh.hpp"
@@ -45,8 +46,8 @@ class RefinementPatch {
   PatchOutcome improve(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& around, const SurfaceMesh& scan,
                        const std::vector<std::uint32_t>& scan_faces, const FeatureNet& net, const PatchGoal& goal);
 
-  // Makes the edges in a place shorter, with shape and deviation no worse. Of the goal only the room is looked at, and
-  // what else angles may be raised to.
+  // Makes the edges in a place shorter, then works towards the goal as `improve` does. Kept where shape and deviation
+  // are no worse, or where the deviation is the goal, so little that the next patches can mend it.
   PatchOutcome shorten(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& around, const SurfaceMesh& scan,
                        const std::vector<std::uint32_t>& scan_faces, const FeatureNet& net, const PatchGoal& goal,
                        const ShorterEdges& place);
