@@ -86,7 +86,7 @@ End walk(const Shape& shape, std::uint32_t start, Vec3 place, Vec3 way, double l
 }
 
 // Of turn and strip, looked for as far as they matter.
-double length_along(const Shape& shape, std::uint32_t f, const Vec3& middle, double longest) {
+double length_along(const Shape& shape, std::uint32_t f, const Vec3& middle, double shortest, double longest) {
   const Triangle& t = shape.mesh.triangles[f];
   const Vec3 x = (shape.mesh.vertices[t[1]] - shape.mesh.vertices[t[0]]).normalized(), y = shape.normals[f].cross(x);
   double length = longest;
@@ -100,7 +100,8 @@ double length_along(const Shape& shape, std::uint32_t f, const Vec3& middle, dou
     if (!ahead.crease || !behind.crease || std::abs(ahead.crease->dot(*behind.crease)) < side_by_side) continue;
     // Measured across, which the line is not quite.
     const double across = (ahead.distance + behind.distance) * way.cross(*ahead.crease).norm();
-    length = std::min(length, lengths_of_strip * across);
+    // Sides that are nearly flush are too near for the shortest edges, which would not part them.
+    if (lengths_of_strip * across >= shortest) length = std::min(length, lengths_of_strip * across);
   }
   return length;
 }
@@ -151,7 +152,8 @@ class ShapeLengths {
         if (may_be_wall[f])
           if (const auto wall = find_wall(mesh, tree, middle, normals[f], {.deepest = length_[f] / lengths_of_wall}))
             length_[f] = std::min(length_[f], lengths_of_wall * wall->thickness);
-        length_[f] = std::max(shortest_, length_along(shape, static_cast<std::uint32_t>(f), middle, length_[f]));
+        length_[f] =
+            std::max(shortest_, length_along(shape, static_cast<std::uint32_t>(f), middle, shortest_, length_[f]));
       }
     });
   }

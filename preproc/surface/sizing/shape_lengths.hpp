@@ -10,7 +10,7 @@
 namespace scan2fea {
 
 // Halves the edges of a scan to at most `edges` of these lengths, and gives them per vertex, between `shortest` and
-// `longest` (model units); the smallest of:
+// `longest` (model units); strips too narrow for the shortest edges are none. The smallest of:
 //  - twice the thickness of the wall behind the triangles around it (quality/wall_thickness.hpp), where no crease parts
 //    its sides;
 //  - 1.3 times the way along the surface in which it turns by 45 degrees without a crease;
