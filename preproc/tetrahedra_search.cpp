@@ -20,8 +20,9 @@ namespace {
 constexpr double good_deg = 24, moved_deg = 28, of_bound = 0.9, least_deg = 20;
 // A share of all elements; with more the surface is too coarse as a whole.
 constexpr double many_poor = 0.1;
-// A first surface of more takes too long to make again.
-constexpr std::size_t most_triangles = 50000;
+// A first surface of more takes too long to make again, and to fill again, which costs by the elements: six a triangle,
+// but a hundred where a few places have triangles far smaller than the body.
+constexpr std::size_t most_triangles = 50000, most_elements = 6 * most_triangles;
 // No more triangles than these, over the first surface's or absolute.
 constexpr double most_growth = 2, most_of_small = 12000;
 // Of what lacks to moved_deg: vertices of poor elements that gained so much by moving are moved again.
@@ -62,7 +63,9 @@ bool worth_renewing(const SimplifyOptions& simplification, const TetrahedralizeO
   if (simplification.method != SimplifyMethod::lattice || simplification.effort == Effort::low ||
       tetrahedralization.time_limit)
     return false;
-  if (simplification.effort != Effort::high && made.surface.triangles.size() > most_triangles) return false;
+  if (simplification.effort != Effort::high &&
+      (made.surface.triangles.size() > most_triangles || made.filled.mesh.tetrahedra.size() > most_elements))
+    return false;
   return !is_good(smallest_dihedral(made), made, moved_deg);
 }
 
