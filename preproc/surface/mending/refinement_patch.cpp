@@ -150,7 +150,8 @@ Trial with_split_edges(const HalfedgeMesh& mesh, std::span<const Index> edges, c
 }
 
 // Edges within the place split until they are `factor` times as long as they were, and those around it so that lengths
-// change gradually; at most `room` vertices more.
+// change gradually; at most `room` vertices more, and as many as the patch has faces: where it has edges of many
+// lengths, no end would be near.
 Trial with_shorter_edges(Trial now, const PatchOutline& outline, const FeatureNet& net, const ShorterEdges& place,
                          std::size_t room) {
   // Halves of a longer edge are nearer to the wanted length than it is.
@@ -160,6 +161,7 @@ Trial with_shorter_edges(Trial now, const PatchOutline& outline, const FeatureNe
     return std::max(0.0, (p - place.where.centre).norm() - place.where.radius);
   };
   const double wanted = place.factor * outline.edge;
+  room = std::min(room, outline.faces.size());
   for (std::size_t inserted = 0; inserted < room; ++inserted) {
     const HalfedgeMesh mesh(now.patch);
     double longest = too_long;
