@@ -5,6 +5,7 @@
 #include "preproc/surface/fit/preserve_volume.hpp"
 #include "preproc/surface/kernel/clear_moves.hpp"
 #include "preproc/surface/mending/local_refinement.hpp"
+#include "preproc/surface/mending/mend_places.hpp"
 #include "preproc/surface/simplification/deviation_at_scan.hpp"
 #include "preproc/surface/simplification/error_sizing.hpp"
 #include "preproc/surface/sizing/size_limits.hpp"
@@ -190,8 +191,7 @@ std::optional<Candidate> SurfaceSearch::run_moved(const std::vector<Vec3>& place
   SurfaceMesh& mesh = moved.candidate.mesh;
   move_clear(mesh, places);
   if (scan.is_closed()) preserve_volume_clear(mesh, scan.mesh, held_lines(moved.candidate.net, mesh.vertices.size()));
-  if (wanted_.deviation)
-    note_deviation(moved, bound_deviation(mesh, scan.deviation_reference(), {.limit = wanted_.deviation->distance}));
+  if (wanted_.deviation) note_deviation(moved);
   if (holds(last_) && !holds(moved)) return {};
   last_ = std::move(moved);
   return last_.candidate;
@@ -268,26 +268,26 @@ SurfaceSearch::Trial SurfaceSearch::judged(Candidate candidate, const Progress& 
 }
 
 void SurfaceSearch::judge_deviation(Trial& made, const Progress& progress) const {
-  const double distance = wanted_.deviation->distance;
-  const DeviationBound bound =
-      bound_deviation(made.candidate.mesh, made.candidate.scan->deviation_reference(), {.limit = distance});
-  note_deviation(made, bound);
-  made.share_beyond = share_beyond(bound.to_reference, distance);
+  made.share_beyond = share_beyond(note_deviation(made).to_reference, wanted_.deviation->distance);
   made.mean_edge_ratio = measure_triangles(made.candidate.mesh).edge_ratio.mean;
   if (!holds(made) && !made.gave_way() && is_shapely(made) && made.share_beyond <= few_beyond)
     bring_within(made, progress);
 }
 
-void SurfaceSearch::note_deviation(Trial& made, const DeviationBound& bound) const {
+DeviationBound SurfaceSearch::note_deviation(Trial& made) const {
   const PreparedScan& scan = *made.candidate.scan;
-  made.deviation = scan.by_vertex(deviation_at_scan(made.candidate.mesh, scan.reference(), bound),
-                                  [](double a, double b) { return std::max(a, b); });
+  const SurfaceMesh& mesh = made.candidate.mesh;
+  const DeviationBoundOptions options{.limit = wanted_.deviation->distance};
+  DeviationBound bound = bound_deviation(mesh, scan.deviation_reference(), options);
   // Edges as short as the shape needs came with a scan of other faces.
-  const double limit = wanted_.deviation->distance;
-  made.candidate.largest_deviation =
-      &scan.mesh == &first_scan_->mesh
-          ? bound.upper()
-          : bound_deviation(made.candidate.mesh, first_scan_->deviation_reference(), {.limit = limit}).upper();
+  made.candidate.largest_deviation = &scan.mesh == &first_scan_->mesh
+                                         ? bound.upper()
+                                         : bound_deviation(mesh, first_scan_->deviation_reference(), options).upper();
+  made.deviation.clear();
+  if (!holds(made))
+    made.deviation = scan.by_vertex(deviation_at_scan(mesh, scan.reference(), bound),
+                                    [](double a, double b) { return std::max(a, b); });
+  return bound;
 }
 
 // What the edge lengths leave too far is brought near place by place; then the exact volume.
@@ -311,7 +311,7 @@ void SurfaceSearch::bring_within(Trial& made, const Progress& progress) const {
         refine_within(surface, made.candidate.net, scan.reference(), scan.deviation_reference(), options, progress);
     if (scan.is_closed())
       preserve_volume_clear(surface, scan.mesh, held_lines(made.candidate.net, surface.vertices.size()));
-    note_deviation(made, bound_deviation(surface, scan.deviation_reference(), {.limit = deviation}));
+    note_deviation(made);
     if (holds(made) || refined.largest_deviation > options.limit) break;
   }
 }
@@ -337,8 +337,7 @@ void SurfaceSearch::mend_shape(Trial& made, const Progress& progress) const {
                                               without_overlaps(bad), options, progress);
   if (result.mended == 0) return;
   if (scan.is_closed()) preserve_volume_clear(mesh, scan.mesh, held_lines(mended.candidate.net, mesh.vertices.size()));
-  if (wanted_.deviation)
-    note_deviation(mended, bound_deviation(mesh, scan.deviation_reference(), {.limit = wanted_.deviation->distance}));
+  if (wanted_.deviation) note_deviation(mended);
   if (holds(made) && !holds(mended)) return;
   made = std::move(mended);
 }

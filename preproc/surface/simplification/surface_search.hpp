@@ -7,7 +7,6 @@
 // without a gain, and of work, which is counted in triangles made, so that the result does not depend on the machine.
 #pragma once
 
-#include "preproc/surface/mending/mend_places.hpp"
 #include "preproc/surface/simplification/shape_check.hpp"
 #include "preproc/surface/simplification/surface_candidate.hpp"
 #include "preproc/surface/sizing/shorter_edges.hpp"
@@ -63,7 +62,7 @@ class SurfaceSearch {
     ShapeDefects shape = {};
     double mean_edge_ratio = 1;
     double share_beyond = 0;             // of the faces, farther from the scan than wanted, before places were mended
-    std::vector<double> deviation = {};  // around each vertex of the scan; empty where it is no judge
+    std::vector<double> deviation = {};  // around each vertex of the scan, where it is beyond what was asked for
     bool was_mended = false;             // place by place
     bool is_other_part = false;          // a small part without its edges is another part
 
@@ -78,7 +77,7 @@ class SurfaceSearch {
   Trial make_by_shape(const Progress& progress);
   Trial judged(Candidate candidate, const Progress& progress);
   void judge_deviation(Trial& made, const Progress& progress) const;
-  void note_deviation(Trial& made, const DeviationBound& bound) const;
+  DeviationBound note_deviation(Trial& made) const;
   void bring_within(Trial& made, const Progress& progress) const;
   void mend_shape(Trial& made, const Progress& progress) const;
   bool holds(const Trial& made) const;
