@@ -10,11 +10,29 @@
 #include <utility>
 
 namespace scan2fea {
+namespace {
+
+std::vector<BoundingBox> boxes_of_blocks(const SurfaceMesh& mesh) {
+  std::vector<BoundingBox> boxes(parallel_block_count(mesh.triangles.size()));
+  for_each_block(mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
+    BoundingBox& all = boxes[first / parallel_block_size];
+    all = box_of_face(mesh, static_cast<std::uint32_t>(first));
+    for (auto f = static_cast<std::uint32_t>(first); f < last; ++f) {
+      const BoundingBox box = box_of_face(mesh, f);
+      all.low = all.low.cwiseMin(box.low);
+      all.high = all.high.cwiseMax(box.high);
+    }
+  });
+  return boxes;
+}
+
+}  // namespace
 
 PatchMender::PatchMender(SurfaceMesh& mesh, FeatureNet& net, const ReferenceSurface& scan,
                          const TriangleTree* scan_tree)
     : mesh_(mesh), net_(net), scan_(scan), scan_tree_(scan_tree), boxes_(mesh), built_(mesh.triangles.size()) {
   net.patch_of_face.clear();
+  if (scan_tree == nullptr) scan_blocks_ = boxes_of_blocks(scan.whole);
 }
 
 std::vector<PatchPlace> PatchMender::mend(std::vector<PatchPlace> places, int rings, Mending how, const PatchGoal& goal,
@@ -86,18 +104,11 @@ std::vector<std::vector<std::uint32_t>> PatchMender::scan_faces_near(
   using Hits = std::vector<std::pair<std::uint32_t, std::uint32_t>>;  // patch, face
   std::vector<Hits> hits(parallel_block_count(scan.triangles.size()));
   for_each_block(scan.triangles.size(), [&](std::size_t first, std::size_t last) {
-    std::vector<BoundingBox> boxes(last - first);
-    BoundingBox all = box_of_face(scan, static_cast<std::uint32_t>(first));
-    for (std::size_t f = first; f < last; ++f) {
-      boxes[f - first] = box_of_face(scan, static_cast<std::uint32_t>(f));
-      all.low = all.low.cwiseMin(boxes[f - first].low);
-      all.high = all.high.cwiseMax(boxes[f - first].high);
-    }
-    for (std::size_t p = 0; p < patches.size(); ++p) {
-      if (!boxes_meet(all, patches[p].box())) continue;
-      for (std::size_t f = first; f < last; ++f)
-        if (boxes_meet(boxes[f - first], patches[p].box()))
-          hits[first / parallel_block_size].emplace_back(static_cast<std::uint32_t>(p), static_cast<std::uint32_t>(f));
+    const std::size_t block = first / parallel_block_size;
+    for (std::uint32_t p = 0; p < patches.size(); ++p) {
+      if (!boxes_meet(scan_blocks_[block], patches[p].box())) continue;
+      for (auto f = static_cast<std::uint32_t>(first); f < last; ++f)
+        if (boxes_meet(box_of_face(scan, f), patches[p].box())) hits[block].emplace_back(p, f);
     }
   });
   for (const Hits& block : hits)

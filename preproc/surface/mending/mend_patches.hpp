@@ -59,6 +59,7 @@ class PatchMender {
   FeatureNet& net_;
   const ReferenceSurface& scan_;
   const TriangleTree* scan_tree_;
+  std::vector<BoundingBox> scan_blocks_;  // of the scan's faces by parallel block, where there is no tree
   FaceBoxes boxes_;
   std::size_t built_;  // faces that have a box there
   PatchChanges changes_;

@@ -56,9 +56,10 @@ std::vector<Side> sorted_sides(const SurfaceMesh& mesh) {
   return sides;
 }
 
-// Points of a grid over all faces, each once: calls visit(face, point) until it says false.
+// Points of a grid over all faces, each once: calls visit(face, point) until it says false, and returns whether it did
+// not.
 template <class Visit>
-void for_each_sample(const SurfaceMesh& mesh, const Visit& visit) {
+bool for_each_sample(const SurfaceMesh& mesh, const Visit& visit) {
   std::vector<bool> is_done(mesh.vertices.size(), false);
   for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
     const Triangle& t = mesh.triangles[f];
@@ -76,9 +77,10 @@ void for_each_sample(const SurfaceMesh& mesh, const Visit& visit) {
         if ((i == 0 && j > 0 && k > 0 && t[2] > t[0]) || (j == 0 && i > 0 && k > 0 && t[0] > t[1]) ||
             (k == 0 && i > 0 && j > 0 && t[1] > t[2]))
           continue;
-        if (!visit(f, a + i * u + j * v)) return;
+        if (!visit(f, a + i * u + j * v)) return false;
       }
   }
+  return true;
 }
 
 // Where the face of the point before is near enough, no other need be asked.
@@ -95,14 +97,14 @@ Location place_of(const SurfaceMesh& mesh, std::uint32_t face, const Vec3& p) {
   return place;
 }
 
-std::vector<FeatureEdge> sorted_edges(const std::vector<LineEdge>& lines) {
+}  // namespace
+
+std::vector<FeatureEdge> Trial::edges_on_lines() const {
   std::vector<FeatureEdge> edges;
   for (const LineEdge& line : lines) edges.push_back(line.edge());
   std::sort(edges.begin(), edges.end());
   return edges;
 }
-
-}  // namespace
 
 Surroundings::Surroundings(const SurfaceMesh& mesh, const PatchOutline& outline, const SurfaceMesh& patch,
                            const std::vector<std::uint32_t>& around, const SurfaceMesh& scan,
@@ -187,7 +189,7 @@ void Surroundings::measure_shape(Trial& trial) const {
         std::max(0.0, goal_.least_angle_deg -
                           smallest_angle_deg(patch.vertices[t[0]], patch.vertices[t[1]], patch.vertices[t[2]]));
   trial.sharpest_deg = trial.sharpest_on_line_deg = 180;
-  const std::vector<FeatureEdge> lines = sorted_edges(trial.lines);
+  const std::vector<FeatureEdge> lines = trial.edges_on_lines();
   for_each_hinge(patch, [&](const Hinge& hinge, const FeatureEdge& edge) {
     const bool on_line = std::binary_search(lines.begin(), lines.end(), edge);
     const double inside_deg = hinge.angle_deg(patch);
@@ -200,7 +202,7 @@ void Surroundings::measure_shape(Trial& trial) const {
 // Corners and edges of the part are as sharp as the part is.
 void Surroundings::measure_lack(Trial& trial) const {
   const SurfaceMesh& patch = trial.patch;
-  const std::vector<FeatureEdge> lines = sorted_edges(trial.lines);
+  const std::vector<FeatureEdge> lines = trial.edges_on_lines();
   const auto on_line = [&](std::uint32_t a, std::uint32_t b) {
     return std::binary_search(lines.begin(), lines.end(), feature_edge(a, b));
   };
@@ -264,33 +266,50 @@ void Surroundings::pull(Trial& trial) const {
 
 void Surroundings::open_folds(Trial& trial, const std::vector<bool>& held) const {
   const double wanted_deg = 2 * goal_.least_angle_deg + opened_beyond_deg;
-  const std::vector<FeatureEdge> lines = sorted_edges(trial.lines);
+  const std::vector<FeatureEdge> lines = trial.edges_on_lines();
   for_each_hinge(trial.patch, [&](const Hinge& hinge, const FeatureEdge& edge) {
     if (hinge.angle_deg(trial.patch) < wanted_deg && !std::binary_search(lines.begin(), lines.end(), edge))
       open_hinge(trial.patch, held, hinge, wanted_deg, longest_opening * outline_.edge);
   });
 }
 
-std::vector<Vec3> Surroundings::scan_points_beyond(const SurfaceMesh& patch, double distance) const {
-  std::vector<Vec3> beyond;
+template <class Visit>
+bool Surroundings::for_each_scan_point(const SurfaceMesh& patch, double distance, const Visit& visit) const {
   const TriangleTree tree(patch);
   std::uint32_t near = 0;
   for (const Vec3& p : scan_->to_answer()) {
     if (is_within(patch, near, p, distance)) continue;
     const ClosestPoint nearest = tree.closest(p, near);
     near = nearest.triangle;
-    if (nearest.squared_distance > distance * distance) beyond.push_back(p);
+    if (!visit(p, nearest)) return false;
   }
+  return true;
+}
+
+template <class Visit>
+bool Surroundings::for_each_own_point(const SurfaceMesh& patch, const Visit& visit) const {
+  const TriangleTree& scan = scan_->reference().tree();
+  std::uint32_t hint = scan.leaf_order().front();
+  return for_each_sample(patch, [&](std::uint32_t f, const Vec3& p) {
+    const ClosestPoint nearest = scan.closest(p, hint);
+    hint = nearest.triangle;
+    return visit(f, p, nearest);
+  });
+}
+
+std::vector<Vec3> Surroundings::scan_points_beyond(const SurfaceMesh& patch, double distance) const {
+  std::vector<Vec3> beyond;
+  for_each_scan_point(patch, distance, [&](const Vec3& p, const ClosestPoint& nearest) {
+    if (nearest.squared_distance > distance * distance) beyond.push_back(p);
+    return true;
+  });
   return beyond;
 }
 
 std::vector<Surroundings::PatchPoint> Surroundings::own_points_beyond(const SurfaceMesh& patch, double distance) const {
   std::vector<PatchPoint> beyond;
-  std::uint32_t hint = scan_->reference().tree().leaf_order().front();
-  for_each_sample(patch, [&](std::uint32_t f, const Vec3& p) {
-    const ClosestPoint nearest = scan_->reference().tree().closest(p, hint);
-    hint = nearest.triangle;
-    if (nearest.squared_distance > distance * distance) beyond.push_back({place_of(patch, f, p), hint});
+  for_each_own_point(patch, [&](std::uint32_t f, const Vec3& p, const ClosestPoint& nearest) {
+    if (nearest.squared_distance > distance * distance) beyond.push_back({place_of(patch, f, p), nearest.triangle});
     return true;
   });
   return beyond;
@@ -316,23 +335,16 @@ void Surroundings::sample_deviation(Trial& trial, double useful) const {
   const double limit = sampled_limit * goal_.limit;
   // Beyond this a single sample makes the merit useless.
   const double far = limit * (1 + std::pow(useful, 0.25));
-  const auto is_useless = [&](std::uint32_t f, double squared_distance) {
+  const auto is_useful = [&](std::uint32_t f, double squared_distance) {
     trial.deviation[f] = std::max(trial.deviation[f], squared_distance);
-    return squared_distance > far * far;
+    return squared_distance <= far * far;
   };
-  const TriangleTree tree(patch);
-  std::uint32_t near = 0;
-  for (const Vec3& p : scan_->to_answer()) {
-    if (is_within(patch, near, p, limit)) continue;
-    const ClosestPoint nearest = tree.closest(p, near);
-    near = nearest.triangle;
-    if (is_useless(near, nearest.squared_distance)) return;
-  }
-  std::uint32_t hint = scan_->reference().tree().leaf_order().front();
-  for_each_sample(patch, [&](std::uint32_t f, const Vec3& p) {
-    const ClosestPoint nearest = scan_->reference().tree().closest(p, hint);
-    hint = nearest.triangle;
-    return !is_useless(f, nearest.squared_distance);
+  if (!for_each_scan_point(patch, limit, [&](const Vec3&, const ClosestPoint& nearest) {
+        return is_useful(nearest.triangle, nearest.squared_distance);
+      }))
+    return;
+  for_each_own_point(patch, [&](std::uint32_t f, const Vec3&, const ClosestPoint& nearest) {
+    return is_useful(f, nearest.squared_distance);
   });
   for (double& d : trial.deviation) d = std::sqrt(d);
   set_merit(trial);

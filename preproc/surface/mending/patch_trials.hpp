@@ -49,6 +49,7 @@ struct Trial {
   std::uint32_t worst = 0;  // face of the patch, by what the goal is about
 
   std::size_t vertices() const { return patch.vertices.size(); }
+  std::vector<FeatureEdge> edges_on_lines() const;  // sorted
 };
 
 // All that stays as it is while a patch changes.
@@ -95,6 +96,13 @@ class Surroundings {
     Location place;
     std::uint32_t scan_face;  // near it
   };
+  // Both call visit until it says false, and return whether it did not. Points of the scan that are left to the patch:
+  // visit(point, nearest), but for those within the distance of the face of the point before. The patch's own samples:
+  // visit(face, point, nearest of the scan).
+  template <class Visit>
+  bool for_each_scan_point(const SurfaceMesh& patch, double distance, const Visit& visit) const;
+  template <class Visit>
+  bool for_each_own_point(const SurfaceMesh& patch, const Visit& visit) const;
   std::vector<Vec3> scan_points_beyond(const SurfaceMesh& patch, double distance) const;
   std::vector<PatchPoint> own_points_beyond(const SurfaceMesh& patch, double distance) const;
   // On the rim, or on lines.

@@ -141,9 +141,7 @@ Trial with_split_edges(const HalfedgeMesh& mesh, std::span<const Index> edges, c
     }
     inserted.push_back(changed.split_edge(h, middle));
   }
-  std::vector<FeatureEdge> kept;
-  for (const LineEdge& e : trial.lines) kept.push_back(e.edge());
-  std::sort(kept.begin(), kept.end());
+  const std::vector<FeatureEdge> kept = trial.edges_on_lines();
   for (const std::uint32_t v : inserted) restore_delaunay(changed, v, {.crease_deg = 90, .kept = kept});
   trial.patch = changed.to_surface();
   return trial;
