@@ -109,10 +109,10 @@ void close_holes(SurfaceMesh& mesh, const HoleClosingOptions& options, RepairRes
     const std::vector<Shell> shells = find_shells(mesh);
     const auto large = find_large_holes(mesh, shells, twins, *options.largest_of_diagonal);
     const double fragment_area = options.fragment_of_area * surface_area(mesh);
-    std::vector<char> fragments(shells.size(), 0);
+    std::vector<std::optional<RepairKind>> reasons(shells.size());
     for (std::size_t s = 0; s < shells.size(); ++s) {
       if (!large[s]) continue;
-      fragments[s] = 1;
+      reasons[s] = RepairKind::DroppedFragment;
       if (shells[s].area >= fragment_area)
         throw NotMeshable({.what = "the surface is open: its hole is too large to close",
                            .where = error_text(large[s]->place),
@@ -120,7 +120,7 @@ void close_holes(SurfaceMesh& mesh, const HoleClosingOptions& options, RepairRes
                            .limit = error_text(large[s]->limit),
                            .advice = "--largest-hole all, or a scan of what is missing"});
     }
-    drop_shells(mesh, shells, fragments, RepairKind::DroppedFragment, result);
+    drop_shells(mesh, shells, reasons, result);
     twins = find_twins(mesh);
   }
   fill_holes(mesh, twins, result, progress);

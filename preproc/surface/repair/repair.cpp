@@ -1,6 +1,7 @@
 #include "preproc/surface/repair/repair.hpp"
 
 #include "preproc/mesh/error_text.hpp"
+#include "preproc/surface/repair/border_stitching.hpp"
 #include "preproc/surface/repair/degenerate_faces.hpp"
 #include "preproc/surface/repair/hole_closing.hpp"
 #include "preproc/surface/repair/intersection_removal.hpp"
@@ -27,6 +28,7 @@ void clean_soup(SurfaceMesh& mesh, RepairResult& result) {
   drop_duplicate_faces(mesh, result);
   const std::size_t before = result.changes.size();
   weld_borders(mesh, result);
+  stitch_borders(mesh, result);
   if (result.changes.size() != before) {
     drop_collapsed_faces(mesh, result);
     drop_duplicate_faces(mesh, result);
@@ -38,27 +40,31 @@ void drop_specks(SurfaceMesh& mesh, const RepairOptions& options, RepairResult& 
   const std::vector<Shell> shells = find_shells(mesh);
   double largest = 0;
   for (const Shell& shell : shells) largest = std::max(largest, shell.box.diagonal());
-  std::vector<char> marks;
-  for (const Shell& shell : shells) marks.push_back(shell.box.diagonal() < options.speck_of_diagonal * largest);
-  drop_shells(mesh, shells, marks, RepairKind::DroppedSpeck, result);
+  std::vector<std::optional<RepairKind>> reasons(shells.size());
+  for (std::size_t s = 0; s < shells.size(); ++s)
+    if (shells[s].box.diagonal() < options.speck_of_diagonal * largest) reasons[s] = RepairKind::DroppedSpeck;
+  drop_shells(mesh, shells, reasons, result);
 }
 
-// Shells that bound nothing: dropped where small, an error where they are what there is. Those that are to stay open
-// bound nothing anyway.
+// Shells that bound nothing: dropped where they lie in a solid (as the faces do along which two solids touched) or are
+// small, an error where they are what there is. Those that are to stay open bound nothing anyway.
 void drop_flat_shells(SurfaceMesh& mesh, const RepairOptions& options, RepairResult& result) {
   const std::vector<Shell> shells = find_shells(mesh, options.holes == Holes::keep);
   const double total_area = surface_area(mesh);
-  std::vector<char> marks;
-  for (const Shell& shell : shells) {
-    marks.push_back(!shell.open && std::abs(shell.volume) <= least_volume_of_area * std::pow(shell.area, 1.5));
-    if (marks.back() && shell.area >= options.fragment_of_area * total_area)
+  std::vector<std::optional<RepairKind>> reasons(shells.size());
+  for (std::size_t s = 0; s < shells.size(); ++s) {
+    const Shell& shell = shells[s];
+    if (shell.open || std::abs(shell.volume) > least_volume_of_area * std::pow(shell.area, 1.5)) continue;
+    const bool inside = std::abs(winding_of_others(mesh, shells, s)) > 0.5;
+    reasons[s] = inside ? RepairKind::DroppedInside : RepairKind::DroppedFragment;
+    if (!inside && shell.area >= options.fragment_of_area * total_area)
       throw NotMeshable({.what = "the surface is flat: it encloses no volume",
                          .where = error_text((shell.box.low + shell.box.high) / 2),
                          .value = "volume " + error_text(std::abs(shell.volume)) + ", area " + error_text(shell.area),
                          .limit = "volume over area^1.5 above " + error_text(least_volume_of_area),
                          .advice = "a scan of all sides of the part"});
   }
-  drop_shells(mesh, shells, marks, RepairKind::DroppedFragment, result);
+  drop_shells(mesh, shells, reasons, result);
 }
 
 [[noreturn]] void fail_of_intersections(const RepairResult& result, double cut_of_area) {

@@ -8,8 +8,9 @@
 namespace scan2fea {
 namespace {
 
-constexpr NameTable<RepairKind, 16> names{{
+constexpr NameTable<RepairKind, 17> names{{
     {RepairKind::WeldedVertex, "welded vertex"},
+    {RepairKind::SplitEdge, "split edge"},
     {RepairKind::UnusedVertex, "unused vertex"},
     {RepairKind::DegenerateFace, "degenerate face"},
     {RepairKind::DuplicateFace, "duplicate face"},

@@ -10,7 +10,8 @@
 namespace scan2fea {
 
 enum class RepairKind {
-  WeldedVertex,      // joined to a vertex at the very same place, which closed a border; size 0
+  WeldedVertex,      // joined to another, which closed a border; size: the distance moved
+  SplitEdge,         // at a vertex that lay beside it (a T-junction), which closed a border; size: the gap
   UnusedVertex,      // no face used it; size 0
   DegenerateFace,    // of no area: removed, collapsed or flipped away; size: its longest edge
   DuplicateFace,     // the same three vertices as another face; size: its area
@@ -20,7 +21,7 @@ enum class RepairKind {
   TurnedFaces,       // orientation reversed to agree with its neighbours or to point outwards; size: area turned
   DroppedSpeck,      // a component too small to matter (RepairOptions::speck_of_diagonal); size: its area
   DroppedFragment,   // an open or flat component that holds no volume (RepairOptions::fragment_of_area); size: its area
-  DroppedInside,     // a piece that lay inside the solid after crossing parts were cut; size: its area
+  DroppedInside,     // a piece that lay inside the solid after parts were joined or cut; size: its area
   ClosedHole,        // size: the diagonal of its border's bounding box
   PartedTouch,       // a vertex moved off one that it touched; size: the distance moved
   UnitedShell,       // a solid that overlapped others, made one with them; size: its area

@@ -92,15 +92,26 @@ std::vector<Shell> find_shells(const SurfaceMesh& mesh, bool tell_open) {
   return shells;
 }
 
-void drop_shells(SurfaceMesh& mesh, const std::vector<Shell>& shells, const std::vector<char>& marks, RepairKind kind,
-                 RepairResult& result) {
+void drop_shells(SurfaceMesh& mesh, const std::vector<Shell>& shells,
+                 const std::vector<std::optional<RepairKind>>& reasons, RepairResult& result) {
   std::vector<char> of_face(mesh.triangles.size(), 0);
   for (std::size_t s = 0; s < shells.size(); ++s) {
-    if (!marks[s]) continue;
+    if (!reasons[s]) continue;
     for (const std::uint32_t f : shells[s].faces) of_face[f] = 1;
-    result.changes.push_back({kind, (shells[s].box.low + shells[s].box.high) / 2, shells[s].area});
+    result.changes.push_back({*reasons[s], (shells[s].box.low + shells[s].box.high) / 2, shells[s].area});
   }
   remove_faces(mesh, of_face, result);
+}
+
+double winding_of_others(const SurfaceMesh& mesh, const std::vector<Shell>& shells, std::size_t shell) {
+  const auto& faces = shells[shell].faces;
+  const auto at = std::find_if(faces.begin(), faces.end(), [&](std::uint32_t f) { return area_of(mesh, f) > 0; });
+  const Vec3 p = centre_of(mesh, at == faces.end() ? faces[0] : *at);
+  double winding = 0;
+  for (std::size_t s = 0; s < shells.size(); ++s)
+    if (s != shell && !shells[s].open && contains(shells[s].box, shells[shell].box))
+      winding += winding_number(mesh, shells[s], p);
+  return winding;
 }
 
 void orient_shells(SurfaceMesh& mesh, bool may_be_open, RepairResult& result) {
@@ -121,18 +132,13 @@ void orient_shells(SurfaceMesh& mesh, bool may_be_open, RepairResult& result) {
 
 void drop_shells_inside(SurfaceMesh& mesh, bool may_be_open, RepairResult& result) {
   const std::vector<Shell> shells = find_shells(mesh, may_be_open);
-  std::vector<char> marks(shells.size(), 0);
+  std::vector<std::optional<RepairKind>> reasons(shells.size());
   for (std::size_t s = 0; s < shells.size(); ++s) {
-    const Shell& shell = shells[s];
-    if (shell.open) continue;
-    double winding = 0;
-    const Vec3& p = mesh.vertices[mesh.triangles[shell.faces[0]][0]];
-    for (const Shell& other : shells)
-      if (&other != &shell && !other.open && contains(other.box, shell.box)) winding += winding_number(mesh, other, p);
-    const bool in_solid = winding > 0.5;
-    marks[s] = in_solid == (shell.volume > 0);
+    if (shells[s].open) continue;
+    const bool in_solid = winding_of_others(mesh, shells, s) > 0.5;
+    if (in_solid == (shells[s].volume > 0)) reasons[s] = RepairKind::DroppedInside;
   }
-  drop_shells(mesh, shells, marks, RepairKind::DroppedInside, result);
+  drop_shells(mesh, shells, reasons, result);
 }
 
 }  // namespace scan2fea

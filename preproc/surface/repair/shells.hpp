@@ -4,6 +4,7 @@
 #include "preproc/mesh/surface_mesh.hpp"
 #include "preproc/surface/repair/repair_result.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace scan2fea {
@@ -20,9 +21,13 @@ struct Shell {
 // a sort of the edges.
 std::vector<Shell> find_shells(const SurfaceMesh& mesh, bool tell_open = false);
 
-// Removes the shells whose mark is not 0 and logs each as `kind`.
-void drop_shells(SurfaceMesh& mesh, const std::vector<Shell>& shells, const std::vector<char>& marks, RepairKind kind,
-                 RepairResult& result);
+// Removes the shells that have a reason to go and logs each under it.
+void drop_shells(SurfaceMesh& mesh, const std::vector<Shell>& shells,
+                 const std::vector<std::optional<RepairKind>>& reasons, RepairResult& result);
+
+// How often the closed ones of the other shells wind about the middle of the shell's first face of any area: 0 where it
+// lies outside of all. O(n) of the shells whose boxes contain its box.
+double winding_of_others(const SurfaceMesh& mesh, const std::vector<Shell>& shells, std::size_t shell);
 
 // Turns shells so that those that an even number of others enclose face outwards, and the others inwards: solids,
 // cavities, solids in cavities. A shell that only partly lies in another counts as outside, unless it faces inwards

@@ -38,6 +38,28 @@ std::vector<RadialFace> sort_about_edge(const SurfaceMesh& mesh, std::span<const
   return faces;
 }
 
+// Where solids touch along faces, one ends at the angle at which the next begins, up to rounding. Put first, the
+// beginning makes one solid of the two, and a shell without volume of the faces between them.
+void begin_before_end(std::vector<RadialFace>& faces) {
+  constexpr double same_angle = 1e-4;  // nothing that opens less can be filled with elements
+  const auto apart = [&](std::size_t i) {
+    const double turn = i == 0 ? 2 * std::numbers::pi : 0;
+    return faces[i].angle - faces[(i + faces.size() - 1) % faces.size()].angle + turn > same_angle;
+  };
+  std::size_t start = 0;
+  while (start < faces.size() && !apart(start)) ++start;
+  if (start == faces.size()) return;
+  std::rotate(faces.begin(), faces.begin() + static_cast<std::ptrdiff_t>(start), faces.end());
+  for (RadialFace& face : faces)
+    if (face.angle < faces[0].angle) face.angle += 2 * std::numbers::pi;
+  for (auto first = faces.begin(); first != faces.end();) {
+    auto last = first + 1;
+    while (last != faces.end() && last->angle - (last - 1)->angle <= same_angle) ++last;
+    std::stable_partition(first, last, [](const RadialFace& f) { return !f.forward; });
+    first = last;
+  }
+}
+
 void pair_up(std::uint32_t a, std::uint32_t b, Twins& twins) {
   twins[a] = b;
   twins[b] = a;
@@ -184,9 +206,10 @@ Twins make_manifold(SurfaceMesh& mesh, RepairResult& result) {
         if (last - first <= 2) return;
         std::vector<RadialFace> faces = sort_about_edge(mesh, {first, last});
         const auto forward = std::count_if(faces.begin(), faces.end(), [](const RadialFace& f) { return f.forward; });
-        if (2 * forward == last - first)
+        if (2 * forward == last - first) {
+          begin_before_end(faces);
           pair_across_material(std::move(faces), twins);
-        else
+        } else
           pair_flattest(std::move(faces), twins);
       });
       orient(mesh, twins, turned);
