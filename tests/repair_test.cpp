@@ -88,7 +88,7 @@ TEST(Repair, OpenFragmentsAreDropped) {
   const SurfaceMesh ball = analytic::sphere(10, 3);
   const SurfaceMesh sheet = without_faces(unit_box(3), [](const Vec3& c) { return c.z() > 1e-9; });
   SurfaceMesh mesh = analytic::join(ball, analytic::moved(sheet, {12, 0, 0}));
-  const RepairResult result = repair(mesh);
+  const RepairResult result = repair(mesh, {.bodies = AllBodies{}});
   EXPECT_EQ(mesh.triangles, ball.triangles);
   EXPECT_EQ(result.count(RepairKind::DroppedFragment), 1u);
 }

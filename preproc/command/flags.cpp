@@ -48,6 +48,21 @@ Choices<Enum> named(const Enum (&values)[n]) {
   return choices;
 }
 
+// A whole number counts bodies; a length has a point or an exponent.
+KeptBodies parse_bodies(const std::string& text) {
+  if (text == "all") return AllBodies{};
+  if (text == "largest") return LargestBodies{};
+  if (!text.empty() && text.find_first_not_of("0123456789") == std::string::npos && text.size() < 10 &&
+      std::stoul(text) > 0)
+    return LargestBodies{std::stoul(text)};
+  char* end = nullptr;
+  const double length = std::strtod(text.c_str(), &end);
+  if (text.find_first_of(".e") == std::string::npos || *end != '\0' || !std::isfinite(length) || length <= 0)
+    throw CLI::ValidationError("--keep",
+                               "'" + text + "' is none of largest, all, a number of bodies (2), a length (2.0)");
+  return BodiesAbove{length};
+}
+
 }  // namespace
 
 RelativeLength parse_length(const std::string& text, char suffix) {
@@ -139,6 +154,12 @@ void add_repair_flags(CLI::App& command, RepairOptions& options) {
           },
           "Close holes up to this size, % of their component's diagonal, or 'all'; the default is 35%")
       ->type_name("P%");
+  command
+      .add_option_function<std::string>(
+          "--keep", [&options](const std::string& text) { options.bodies = parse_bodies(text); },
+          "Bodies that stay: 'largest', 'all', the N largest, or those above a length in model units (5.0); by default "
+          "all but what is small beside the largest: a tenth of its size and a thousandth of its volume")
+      ->type_name("BODIES");
 }
 
 void add_enrich_flags(CLI::App& command, EnrichOptions& options) {

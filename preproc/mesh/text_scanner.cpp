@@ -116,6 +116,11 @@ void TextScanner::fail_number(const char* expected) const {
   constexpr std::size_t longest_quotation = 40;  // a message is one line, and the word may be a binary file
   TextScanner here = *this;
   std::string value(here.word().substr(0, longest_quotation));
+  const std::size_t comma = value.find(',');
+  const auto is_digit = [&](std::size_t i) { return i < value.size() && value[i] >= '0' && value[i] <= '9'; };
+  if (comma != std::string::npos && comma > 0 && is_digit(comma - 1) && is_digit(comma + 1))
+    fail(at_, "not " + std::string(expected), std::move(value), "a decimal point, not a decimal comma",
+         "an export under a locale with decimal points, LC_NUMERIC=C");
   if (!value.empty()) fail(at_, "not " + std::string(expected), std::move(value));
   // At the end of the line: position the error on it rather than on the line break's far side.
   fail(at_, at_ == end_ ? "the file ends where " + std::string(expected) + " is expected"

@@ -3,6 +3,7 @@
 #include "preproc/surface/kernel/adjacency.hpp"
 #include "preproc/surface/kernel/clear_moves.hpp"
 #include "preproc/surface/repair/face_marks.hpp"
+#include "preproc/surface/repair/shells.hpp"
 #include "preproc/surface/repair/soup_adjacency.hpp"
 
 #include <algorithm>
@@ -34,6 +35,42 @@ bool put_back_folds(SurfaceMesh& mesh, const std::vector<Vec3>& before, const Fa
 }
 
 }  // namespace
+
+bool part_touching_shells(SurfaceMesh& mesh, const std::vector<FacePair>& pairs, RepairResult& result) {
+  constexpr double of_diagonal = 1e-6;
+  const std::vector<Shell> shells = find_shells(mesh);
+  std::vector<std::uint32_t> shell_of_face(mesh.triangles.size());
+  for (std::uint32_t s = 0; s < shells.size(); ++s)
+    for (const std::uint32_t f : shells[s].faces) shell_of_face[f] = s;
+  std::vector<Vec3> away(shells.size(), Vec3::Zero());
+  for (const FacePair& pair : pairs) {
+    const std::uint32_t a = shell_of_face[pair.face], b = shell_of_face[pair.other];
+    if (a == b) continue;
+    const Vec3 apart = centre_of(mesh, pair.face) - centre_of(mesh, pair.other);
+    if (shells[a].area < shells[b].area)
+      away[a] += apart;
+    else
+      away[b] -= apart;
+  }
+  bool any = false;
+  const double distance = of_diagonal * bounding_box(mesh.vertices).diagonal();
+  for (std::uint32_t s = 0; s < shells.size(); ++s) {
+    if (away[s].isZero()) continue;
+    FaceMarks marks(mesh.triangles.size(), 0);
+    for (const std::uint32_t f : shells[s].faces) marks[f] = 1;
+    const std::vector<std::uint32_t> vertices = vertices_of(mesh, marks);
+    const std::vector<Vec3> before = mesh.vertices;
+    for (const std::uint32_t v : vertices) mesh.vertices[v] += distance * away[s].normalized();
+    const std::vector<FacePair> left = find_self_intersections(mesh, shells[s].faces);
+    if (std::any_of(left.begin(), left.end(), [&](const FacePair& p) { return marks[p.face] != marks[p.other]; })) {
+      mesh.vertices = before;
+      continue;
+    }
+    any = true;
+    result.changes.push_back({RepairKind::PartedTouch, (shells[s].box.low + shells[s].box.high) / 2, distance});
+  }
+  return any;
+}
 
 bool part_touching_vertices(SurfaceMesh& mesh, const std::vector<FacePair>& pairs, RepairResult& result) {
   constexpr double fraction = 0.01;

@@ -9,6 +9,11 @@
 
 namespace scan2fea {
 
+// Shells that touch others at vertices or along edges, moved away as they are by a millionth of the surface's diagonal:
+// of two the one of less area, so that planes stay planes. One that crosses anything thereafter stays where it was.
+// Returns whether any moved. Precondition: `pairs` are the surface's intersecting pairs; manifold.
+bool part_touching_shells(SurfaceMesh& mesh, const std::vector<FacePair>& pairs, RepairResult& result);
+
 // Vertices of intersecting faces that lie at the very same place are drawn a hundredth of the way to the mean of their
 // neighbours. Returns whether there were any. Precondition: `pairs` are the surface's intersecting pairs; manifold.
 bool part_touching_vertices(SurfaceMesh& mesh, const std::vector<FacePair>& pairs, RepairResult& result);

@@ -1,10 +1,12 @@
 #include "preproc/surface/repair/intersection_removal.hpp"
 
+#include "preproc/surface/repair/crossing_union.hpp"
+#include "preproc/surface/repair/degenerate_faces.hpp"
 #include "preproc/surface/repair/face_marks.hpp"
 #include "preproc/surface/repair/fold_smoothing.hpp"
 #include "preproc/surface/repair/hole_filling.hpp"
-#include "preproc/surface/repair/shell_union.hpp"
 #include "preproc/surface/repair/soup_adjacency.hpp"
+#include "preproc/surface/repair/soup_cleaning.hpp"
 #include "quality/self_intersections.hpp"
 
 #include <algorithm>
@@ -93,6 +95,17 @@ void mark_non_manifold(const SurfaceMesh& mesh, FaceMarks& marks) {
   });
 }
 
+// The pairs become those of the surface of the union, with one fan of faces per vertex.
+void unite(SurfaceMesh& mesh, std::vector<FacePair>& pairs, Crossings which, RepairResult& result) {
+  if (!unite_crossings(mesh, pairs, which, result)) return;
+  RepairResult of_the_union;  // what follows from it: nothing to report
+  drop_collapsed_faces(mesh, of_the_union);
+  make_manifold(mesh, of_the_union);
+  mend_degenerate_faces(mesh, of_the_union);
+  result.faces_removed += of_the_union.faces_removed;
+  pairs = find_self_intersections(mesh);
+}
+
 }  // namespace
 
 IntersectionRemoval remove_intersections(SurfaceMesh& mesh, RepairResult& result, const Progress& progress) {
@@ -100,9 +113,11 @@ IntersectionRemoval remove_intersections(SurfaceMesh& mesh, RepairResult& result
   result.intersecting_pairs = pairs.size();
   if (pairs.empty()) return {};
   const bool closed = Borders(mesh).empty();
-  if (closed && unite_shells(mesh, pairs, result)) pairs = find_self_intersections(mesh);
+  if (closed) unite(mesh, pairs, Crossings::between_shells, result);
+  if (!pairs.empty() && part_touching_shells(mesh, pairs, result)) pairs = find_self_intersections(mesh);
   if (!pairs.empty() && part_touching_vertices(mesh, pairs, result)) pairs = find_self_intersections(mesh);
   if (!pairs.empty()) pairs = smooth_folds(mesh, std::move(pairs), result);
+  if (closed && !pairs.empty()) unite(mesh, pairs, Crossings::within_shells, result);
 
   IntersectionRemoval removal;
   std::size_t faces_of_input = mesh.triangles.size();  // they come first, patches after them

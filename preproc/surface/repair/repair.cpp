@@ -36,16 +36,6 @@ void clean_soup(SurfaceMesh& mesh, RepairResult& result) {
   drop_inner_walls(mesh, result);
 }
 
-void drop_specks(SurfaceMesh& mesh, const RepairOptions& options, RepairResult& result) {
-  const std::vector<Shell> shells = find_shells(mesh);
-  double largest = 0;
-  for (const Shell& shell : shells) largest = std::max(largest, shell.box.diagonal());
-  std::vector<std::optional<RepairKind>> reasons(shells.size());
-  for (std::size_t s = 0; s < shells.size(); ++s)
-    if (shells[s].box.diagonal() < options.speck_of_diagonal * largest) reasons[s] = RepairKind::DroppedSpeck;
-  drop_shells(mesh, shells, reasons, result);
-}
-
 // Shells that bound nothing: dropped where they lie in a solid (as the faces do along which two solids touched) or are
 // small, an error where they are what there is. Those that are to stay open bound nothing anyway.
 void drop_flat_shells(SurfaceMesh& mesh, const RepairOptions& options, RepairResult& result) {
@@ -93,7 +83,7 @@ RepairResult repair(SurfaceMesh& mesh, const RepairOptions& options, const Progr
     clean_soup(mesh, result);
     make_manifold(mesh, result);
   }
-  if (!sound || validity.components > 1) drop_specks(mesh, options, result);
+  if (!sound || validity.components > 1) drop_debris(mesh, options.bodies, result);
   if (!sound && !keep_holes) {
     close_holes(mesh, {options.largest_hole_of_diagonal, options.fragment_of_area}, result, progress);
     make_manifold(mesh, result);
@@ -111,6 +101,8 @@ RepairResult repair(SurfaceMesh& mesh, const RepairOptions& options, const Progr
     drop_flat_shells(mesh, options, result);
     drop_shells_inside(mesh, keep_holes, result);
   }
+  if (result.count(RepairKind::Intersection) + result.count(RepairKind::UnitedShell) > 0)
+    drop_debris(mesh, options.bodies, result);  // crossings may have parted pieces from the whole
   drop_unused_vertices(mesh);
   progress("repair", 1);
   return result;

@@ -5,6 +5,7 @@
 
 #include "preproc/mesh/progress.hpp"
 #include "preproc/mesh/surface_mesh.hpp"
+#include "preproc/surface/repair/kept_bodies.hpp"
 #include "preproc/surface/repair/repair_result.hpp"
 
 #include <optional>
@@ -22,10 +23,8 @@ struct RepairOptions {
   // 0.35: the base of a statue that a scanner could not see is about that, the mouth of a vase or an open sheet above.
   std::optional<double> largest_hole_of_diagonal = 0.35;
 
-  // Components whose bounding box has a diagonal below this fraction of the largest component's are dropped: the dust
-  // and stray returns of a scan. [0, 1]; 0 keeps all. 0.01: below it a component has no effect on stiffness, and its
-  // triangles would be smaller than the simplified surface's.
-  double speck_of_diagonal = 0.01;
+  // Which bodies stay; the others are dropped before anything is done to them.
+  KeptBodies bodies = BodiesOfNote{};
 
   // Components that enclose no volume (flat, or with a hole that is too large to close) are dropped if their area is
   // below this fraction of the whole; above it they are an error. [0, 1]. 0.01: a scan's stray sheets are below it.
@@ -39,7 +38,7 @@ struct RepairOptions {
 // Inner walls and flaps (sheets without which each of their edges has an even number of faces) go, smallest first.
 //
 // 2. Manifold. Faces are paired at every edge, at non-manifold ones across the material between them, and oriented
-// consistently; vertices are split so that each has one fan of faces. Specks are dropped.
+// consistently; vertices are split so that each has one fan of faces. Debris is dropped.
 //
 // 3. Closed. Holes are triangulated with the least worst dihedral angles and area, refined to the density of the
 // border, and faired tangent-continuously, or as a membrane (flat if the border is) where the border is a sharp edge.

@@ -8,7 +8,7 @@
 namespace scan2fea {
 namespace {
 
-constexpr NameTable<RepairKind, 17> names{{
+constexpr NameTable<RepairKind, 18> names{{
     {RepairKind::WeldedVertex, "welded vertex"},
     {RepairKind::SplitEdge, "split edge"},
     {RepairKind::UnusedVertex, "unused vertex"},
@@ -19,6 +19,7 @@ constexpr NameTable<RepairKind, 17> names{{
     {RepairKind::NonManifoldFaces, "non-manifold face"},
     {RepairKind::TurnedFaces, "turned faces"},
     {RepairKind::DroppedSpeck, "dropped speck"},
+    {RepairKind::FilledCavity, "filled cavity"},
     {RepairKind::DroppedFragment, "dropped fragment"},
     {RepairKind::DroppedInside, "dropped inner piece"},
     {RepairKind::ClosedHole, "closed hole"},

@@ -19,11 +19,12 @@ enum class RepairKind {
   SplitVertex,       // parted into one vertex per fan of faces; size 0
   NonManifoldFaces,  // faces about an edge that no splitting could mend, cut out and filled; size: their area
   TurnedFaces,       // orientation reversed to agree with its neighbours or to point outwards; size: area turned
-  DroppedSpeck,      // a component too small to matter (RepairOptions::speck_of_diagonal); size: its area
+  DroppedSpeck,      // a body that is not to stay (RepairOptions::bodies); size: its area
+  FilledCavity,      // a cavity too small to matter, left out; size: its area
   DroppedFragment,   // an open or flat component that holds no volume (RepairOptions::fragment_of_area); size: its area
   DroppedInside,     // a piece that lay inside the solid after parts were joined or cut; size: its area
   ClosedHole,        // size: the diagonal of its border's bounding box
-  PartedTouch,       // a vertex moved off one that it touched; size: the distance moved
+  PartedTouch,       // a vertex, or a shell as it is, moved off what it touched; size: the distance moved
   UnitedShell,       // a solid that overlapped others, made one with them; size: its area
   SmoothedFold,      // a vertex smoothed because its faces crossed others; size: the distance moved
   Intersection,      // a group of faces that crossed others, cut out and filled; size: the area cut out

@@ -2,29 +2,20 @@
 
 #include "preproc/surface/kernel/components.hpp"
 #include "preproc/surface/repair/face_marks.hpp"
+#include "preproc/surface/repair/solid_angle.hpp"
 #include "preproc/surface/repair/soup_adjacency.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace scan2fea {
 namespace {
 
 // How often the shell winds about the point: 1 inside and 0 outside of one that faces outwards.
 double winding_number(const SurfaceMesh& mesh, const Shell& shell, const Vec3& p) {
-  double half_angles = 0;
-  for (const std::uint32_t f : shell.faces) {
-    const Triangle& t = mesh.triangles[f];
-    const Vec3 a = mesh.vertices[t[0]] - p, b = mesh.vertices[t[1]] - p, c = mesh.vertices[t[2]] - p;
-    const double la = a.norm(), lb = b.norm(), lc = c.norm();
-    half_angles += std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-  }
-  return half_angles / (2 * std::numbers::pi);
-}
-
-bool contains(const BoundingBox& outer, const BoundingBox& inner) {
-  return (outer.low.array() <= inner.low.array()).all() && (outer.high.array() >= inner.high.array()).all();
+  double sum = 0;
+  for (const std::uint32_t f : shell.faces) sum += winding_of_triangle(mesh, mesh.triangles[f], p);
+  return sum;
 }
 
 // Whether all of the shell's sampled vertices, and whether most of them, lie inside the other.
@@ -59,6 +50,10 @@ void turn(SurfaceMesh& mesh, const Shell& shell, RepairResult& result) {
 }
 
 }  // namespace
+
+bool contains(const BoundingBox& outer, const BoundingBox& inner) {
+  return (outer.low.array() <= inner.low.array()).all() && (outer.high.array() >= inner.high.array()).all();
+}
 
 std::vector<Shell> find_shells(const SurfaceMesh& mesh, bool tell_open) {
   const Components components = find_components(mesh);

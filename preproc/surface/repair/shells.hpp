@@ -17,6 +17,8 @@ struct Shell {
   bool open = false;  // known only where asked for
 };
 
+bool contains(const BoundingBox& outer, const BoundingBox& inner);
+
 // The components of a manifold surface, closed or not, ordered by their lowest face. O(n); to tell which are open costs
 // a sort of the edges.
 std::vector<Shell> find_shells(const SurfaceMesh& mesh, bool tell_open = false);

@@ -1,0 +1,233 @@
+#include "preproc/surface/repair/crossing_union.hpp"
+
+#include "preproc/mesh/union_find.hpp"
+#include "preproc/surface/kernel/adjacency.hpp"
+#include "preproc/surface/repair/arrangement.hpp"
+#include "preproc/surface/repair/face_marks.hpp"
+#include "preproc/surface/repair/shells.hpp"
+#include "preproc/surface/repair/solid_angle.hpp"
+#include "preproc/surface/repair/soup_adjacency.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace scan2fea {
+namespace {
+
+// Shells that cross one another, and the pairs in which they do.
+struct CrossingSet {
+  std::vector<std::size_t> shells;
+  std::vector<FacePair> pairs;
+};
+
+std::vector<CrossingSet> find_sets(const SurfaceMesh& mesh, const std::vector<Shell>& shells,
+                                   std::span<const FacePair> pairs, Crossings which) {
+  std::vector<std::uint32_t> shell_of_face(mesh.triangles.size());
+  for (std::uint32_t s = 0; s < shells.size(); ++s)
+    for (const std::uint32_t f : shells[s].faces) shell_of_face[f] = s;
+  std::vector<FacePair> wanted;
+  UnionFind joined(shells.size());
+  for (const FacePair& pair : pairs) {
+    const std::uint32_t a = shell_of_face[pair.face], b = shell_of_face[pair.other];
+    if ((a != b) != (which == Crossings::between_shells)) continue;
+    wanted.push_back(pair);
+    joined.unite(a, b);
+  }
+  std::vector<CrossingSet> by_root(shells.size());
+  for (const FacePair& pair : wanted) by_root[joined.find(shell_of_face[pair.face])].pairs.push_back(pair);
+  for (std::uint32_t s = 0; s < shells.size(); ++s) by_root[joined.find(s)].shells.push_back(s);
+  std::erase_if(by_root, [](const CrossingSet& set) { return set.pairs.empty(); });
+  return by_root;
+}
+
+// The faces of some shells as a surface of their own.
+struct Part {
+  SurfaceMesh mesh;
+  std::vector<std::uint32_t> vertex, face;  // of the whole, for each of its own
+  std::vector<FacePair> pairs;
+};
+
+Part take_part(const SurfaceMesh& mesh, const std::vector<Shell>& shells, const CrossingSet& set) {
+  Part part;
+  for (const std::size_t s : set.shells)
+    part.face.insert(part.face.end(), shells[s].faces.begin(), shells[s].faces.end());
+  std::sort(part.face.begin(), part.face.end());
+  for (const std::uint32_t f : part.face)
+    part.vertex.insert(part.vertex.end(), mesh.triangles[f].begin(), mesh.triangles[f].end());
+  std::sort(part.vertex.begin(), part.vertex.end());
+  part.vertex.erase(std::unique(part.vertex.begin(), part.vertex.end()), part.vertex.end());
+  const auto index = [](const std::vector<std::uint32_t>& in, std::uint32_t i) {
+    return static_cast<std::uint32_t>(std::lower_bound(in.begin(), in.end(), i) - in.begin());
+  };
+  for (const std::uint32_t v : part.vertex) part.mesh.vertices.push_back(mesh.vertices[v]);
+  for (const std::uint32_t f : part.face) {
+    Triangle t = mesh.triangles[f];
+    for (std::uint32_t& v : t) v = index(part.vertex, v);
+    part.mesh.triangles.push_back(t);
+  }
+  for (const FacePair& pair : set.pairs)
+    part.pairs.push_back({index(part.face, pair.face), index(part.face, pair.other)});
+  return part;
+}
+
+// Pairs that are one crossing, since their faces are the same or share a vertex: a number for each face of a pair.
+std::vector<std::uint32_t> number_crossings(const Part& part) {
+  UnionFind joined(part.mesh.triangles.size());
+  std::vector<std::uint32_t> at_vertex(part.mesh.vertices.size(), no_face);
+  for (const FacePair& pair : part.pairs) {
+    joined.unite(pair.face, pair.other);
+    for (const std::uint32_t f : {pair.face, pair.other})
+      for (const std::uint32_t v : part.mesh.triangles[f]) {
+        if (at_vertex[v] != no_face) joined.unite(at_vertex[v], f);
+        at_vertex[v] = f;
+      }
+  }
+  std::vector<std::uint32_t> number(part.mesh.triangles.size());
+  for (std::uint32_t f = 0; f < number.size(); ++f) number[f] = joined.find(f);
+  return number;
+}
+
+// How often the surface winds about points on either side of one of its faces.
+struct Sides {
+  int outside = 0;  // where its normal points
+  int inside = 0;
+  bool first = true;  // of the faces that lie upon one another there
+};
+
+class Winding {
+ public:
+  Winding(const SurfaceMesh& surface, const Arrangement& arrangement) : surface_(surface), arrangement_(arrangement) {}
+
+  Sides beside(std::uint32_t triangle) const {
+    const std::uint32_t face = arrangement_.face_of[triangle];
+    const Vec3 p = centre_of(arrangement_.mesh, triangle);
+    const Vec3 normal = area_vector(surface_, surface_.triangles[face]);
+    std::vector<std::uint32_t> here{face};
+    const auto& overlapping = arrangement_.overlapping;
+    for (auto at = std::lower_bound(overlapping.begin(), overlapping.end(), std::pair(face, 0U));
+         at != overlapping.end() && at->first == face; ++at)
+      if (covers(at->second, p, normal)) here.push_back(at->second);
+    std::sort(here.begin(), here.end());
+    here.erase(std::unique(here.begin(), here.end()), here.end());
+
+    double of_others = 0;
+    for (std::uint32_t f = 0; f < surface_.triangles.size(); ++f)
+      if (!std::binary_search(here.begin(), here.end(), f))
+        of_others += winding_of_triangle(surface_, surface_.triangles[f], p);
+    double step = 0;  // from outside to inside
+    for (const std::uint32_t f : here) step += normal.dot(area_vector(surface_, surface_.triangles[f])) > 0 ? 1 : -1;
+    return {static_cast<int>(std::lround(of_others - step / 2)), static_cast<int>(std::lround(of_others + step / 2)),
+            here.front() == face};
+  }
+
+ private:
+  // Whether a point of the face's plane lies within it.
+  bool covers(std::uint32_t face, const Vec3& p, const Vec3& normal) const {
+    const Triangle& t = surface_.triangles[face];
+    double low = 0, high = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3 &a = surface_.vertices[t[i]], &b = surface_.vertices[t[(i + 1) % 3]];
+      const double side = (b - a).cross(p - a).dot(normal);
+      low = std::min(low, side);
+      high = std::max(high, side);
+    }
+    return low == 0 || high == 0;
+  }
+
+  const SurfaceMesh& surface_;
+  const Arrangement& arrangement_;
+};
+
+// Triangles that hang together across edges of two, and the largest of each such piece.
+std::vector<std::uint32_t> largest_of_pieces(const SurfaceMesh& mesh, UnionFind& pieces) {
+  EdgeGroups(mesh).for_each([&](const std::uint32_t* first, const std::uint32_t* last) {
+    if (last - first == 2) pieces.unite(first[0] / 3, first[1] / 3);
+  });
+  std::vector<std::uint32_t> largest(mesh.triangles.size(), no_face);  // by the piece's first
+  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+    std::uint32_t& best = largest[pieces.find(f)];
+    if (best == no_face || area_of(mesh, f) > area_of(mesh, best)) best = f;
+  }
+  return largest;
+}
+
+struct Union {
+  Arrangement arrangement;
+  std::vector<char> kept;  // per triangle of it
+};
+
+// Leaves out crossings beyond which a surface is inside out, if it must not be. Nothing where none is left.
+std::optional<Union> unite(Part& part, bool may_be_inside_out) {
+  const std::vector<std::uint32_t> crossing = number_crossings(part);
+  while (!part.pairs.empty()) {
+    Union made{arrange(part.mesh, part.pairs), {}};
+    SurfaceMesh& mesh = made.arrangement.mesh;
+    made.kept.assign(mesh.triangles.size(), 0);
+    const Winding winding(part.mesh, made.arrangement);
+    UnionFind pieces(mesh.triangles.size());
+    const std::vector<std::uint32_t> largest = largest_of_pieces(mesh, pieces);
+    std::vector<Sides> sides(mesh.triangles.size());
+    for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f)
+      if (largest[f] != no_face) sides[f] = winding.beside(largest[f]);
+    std::vector<char> inside_out(part.mesh.triangles.size(), 0);  // by crossing
+    std::vector<char> crossed = marks_of(part.pairs, part.mesh.triangles.size());
+    for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+      const Sides& of_piece = sides[pieces.find(f)];
+      const std::uint32_t face = made.arrangement.face_of[f];
+      if (std::min(of_piece.outside, of_piece.inside) < 0 && crossed[face]) inside_out[crossing[face]] = 1;
+      if (!of_piece.first || (of_piece.outside > 0) == (of_piece.inside > 0)) continue;
+      made.kept[f] = 1;
+      if (of_piece.outside > 0) std::swap(mesh.triangles[f][1], mesh.triangles[f][2]);
+    }
+    if (std::find(made.kept.begin(), made.kept.end(), 0) == made.kept.end()) return {};  // they only touch
+    if (may_be_inside_out || std::find(inside_out.begin(), inside_out.end(), 1) == inside_out.end()) return made;
+    std::erase_if(part.pairs, [&](const FacePair& pair) { return inside_out[crossing[pair.face]] != 0; });
+  }
+  return {};
+}
+
+// The corners may begin at another one.
+bool is_same(Triangle a, const Triangle& b) {
+  for (int i = 0; i < 3 && a != b; ++i) std::rotate(a.begin(), a.begin() + 1, a.end());
+  return a == b;
+}
+
+}  // namespace
+
+bool unite_crossings(SurfaceMesh& mesh, std::span<const FacePair> pairs, Crossings which, RepairResult& result) {
+  const std::vector<Shell> shells = find_shells(mesh);
+  std::vector<char> gone(mesh.triangles.size(), 0);
+  std::vector<Triangle> added;
+  bool changed = false;
+  for (const CrossingSet& set : find_sets(mesh, shells, pairs, which)) {
+    Part part = take_part(mesh, shells, set);
+    const std::optional<Union> made = unite(part, which == Crossings::between_shells);
+    if (!made) continue;
+    changed = true;
+    const SurfaceMesh& cut = made->arrangement.mesh;
+    const auto known = static_cast<std::uint32_t>(part.vertex.size());
+    const auto first_new = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(), cut.vertices.begin() + known, cut.vertices.end());
+    for (const std::uint32_t f : part.face) gone[f] = 1;
+    for (std::uint32_t f = 0; f < cut.triangles.size(); ++f) {
+      if (!made->kept[f]) continue;
+      Triangle t = cut.triangles[f];
+      for (std::uint32_t& v : t) v = v < known ? part.vertex[v] : first_new + (v - known);
+      const std::uint32_t face = part.face[made->arrangement.face_of[f]];
+      if (is_same(t, mesh.triangles[face]))
+        gone[face] = 0;
+      else
+        added.push_back(t);
+    }
+    for (const std::size_t s : set.shells)
+      result.changes.push_back({RepairKind::UnitedShell, (shells[s].box.low + shells[s].box.high) / 2, shells[s].area});
+  }
+  if (!changed) return false;
+  remove_faces(mesh, gone, result);
+  mesh.triangles.insert(mesh.triangles.end(), added.begin(), added.end());
+  result.faces_added += added.size();
+  return true;
+}
+
+}  // namespace scan2fea
