@@ -1,6 +1,7 @@
 #include "preproc/pipeline.hpp"
 
 #include "preproc/mesh/error.hpp"
+#include "preproc/surface/repair/solid_volume.hpp"
 #include "preproc/tetrahedra_search.hpp"
 #include "preproc/volume/mid_edge_nodes.hpp"
 
@@ -58,23 +59,60 @@ std::string coordinates(const Vec3& p) {
   return text;
 }
 
+// Of all changes of one kind.
+struct ChangeGroup {
+  std::size_t count = 0;
+  double area = 0, volume = 0;
+  const RepairChange* largest = nullptr;
+};
+
+std::string rounded(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+std::string describe(RepairKind kind, const ChangeGroup& group) {
+  std::string text(name(kind));
+  if (group.count > 1) text += ": " + std::to_string(group.count) + ", the largest";
+  text += " at " + coordinates(group.largest->place);
+  if (group.largest->size > 0) text += ", size " + rounded(group.largest->size);
+  if (group.area > 0) text += "; area " + rounded(group.area) + (group.count > 1 ? " together" : "");
+  if (group.volume > 0) text += ", volume " + rounded(group.volume);
+  return text;
+}
+
+// What is lost and made up first, since a person must know of it.
 void describe(const RepairResult& result, StageRecord& record) {
-  std::map<RepairKind, std::size_t> counts;
-  for (const RepairChange& change : result.changes) ++counts[change.kind];
-  for (const auto& [kind, count] : counts)
-    record.changes.emplace_back(std::string(scan2fea::name(kind)), static_cast<double>(count));
+  std::map<RepairKind, ChangeGroup> groups;
+  double lost_area = 0, lost_volume = 0, made_up_area = 0;
+  for (const RepairChange& change : result.changes) {
+    ChangeGroup& group = groups[change.kind];
+    ++group.count;
+    group.area += change.area;
+    group.volume += change.volume;
+    if (!group.largest || change.size > group.largest->size) group.largest = &change;
+    if (is_lost(change.kind)) lost_area += change.area, lost_volume += change.volume;
+    if (is_made_up(change.kind)) made_up_area += change.area;
+  }
+  for (const auto& [kind, group] : groups)
+    record.changes.emplace_back(std::string(scan2fea::name(kind)), static_cast<double>(group.count));
   if (result.intersecting_pairs > 0)
     record.changes.emplace_back("intersecting_pairs_before", static_cast<double>(result.intersecting_pairs));
   record.changes.emplace_back("faces_removed", static_cast<double>(result.faces_removed));
   record.changes.emplace_back("faces_added", static_cast<double>(result.faces_added));
-  for (const RepairChange& change : result.changes) {
-    // A dropped vertex changes no surface; some scans have thousands.
-    if (change.kind == RepairKind::UnusedVertex) continue;
-    char size[32];
-    std::snprintf(size, sizeof size, "%.4g", change.size);
-    record.remarks.push_back(std::string(name(change.kind)) + " at " + coordinates(change.place) +
-                             (change.size > 0 ? ", size " + std::string(size) : ""));
-  }
+  record.changes.emplace_back("lost_area", lost_area);
+  record.changes.emplace_back("lost_volume", lost_volume);
+  record.changes.emplace_back("made_up_area", made_up_area);
+  record.changes.emplace_back("bodies", static_cast<double>(result.bodies));
+  if (result.bodies > 1)
+    record.remarks.push_back(std::to_string(result.bodies) +
+                             " bodies that are not joined: a solver finds the system singular unless each is held");
+  for (const bool wanted : {true, false})
+    for (const auto& [kind, group] : groups)
+      // A dropped vertex changes no surface.
+      if (kind != RepairKind::UnusedVertex && (is_lost(kind) || is_made_up(kind)) == wanted)
+        record.remarks.push_back(describe(kind, group));
 }
 
 void describe(const EnrichResult& result, StageRecord& record) {
@@ -176,9 +214,15 @@ PipelineResult run_pipeline(SurfaceMesh scan, const PipelineOptions& options, co
   PipelineResult result;
   StageLog log(result.stages, listener);
   SimplifyOptions simplification = options.simplify.value_or(SimplifyOptions{});
-  simplification.size = in_model_units(simplification.size, bounding_box(scan.vertices));
   if (options.repair)
-    log.run("repair", [&](StageRecord& record) { describe(repair(scan, *options.repair, progress), record); });
+    log.run("repair", [&](StageRecord& record) {
+      SurfaceMesh given = scan;
+      result.repaired = repair(scan, *options.repair, progress);
+      if (!result.repaired.unchanged()) result.given = std::move(given);
+      if (*options.repair == RepairOptions{}) result.solid_volume = volume_of_solid(scan, result.repaired);
+      describe(result.repaired, record);
+    });
+  simplification.size = in_model_units(simplification.size, bounding_box(scan.vertices));  // without debris
   result.scan = std::move(scan);
   SurfaceMesh enriched;  // scans are large: none is copied that the next stage reads only
   if (options.enrich)

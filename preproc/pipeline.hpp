@@ -38,12 +38,18 @@ struct StageRecord {
 };
 
 struct PipelineResult {
-  SurfaceMesh scan;       // after repair: what the result is compared with
+  // The scan as it was given, where repair changed it. What the result is compared with is `reference()`.
+  std::optional<SurfaceMesh> given;
+  std::optional<double> solid_volume;  // what `volume_of_solid(reference())` gives, where it is known already
+  RepairResult repaired;
+  SurfaceMesh scan;       // after repair
   SurfaceMesh surface;    // the last surface of the chain
   FeatureLines features;  // the scan's edges that simplification was to keep
   std::optional<TetMesh> volume_mesh;
   std::vector<StageRecord> stages;
   std::vector<WeakPlace> weak_places;  // of what was made; none of them is unusable
+
+  const SurfaceMesh& reference() const { return given ? *given : scan; }
 };
 
 // Called after each stage.

@@ -124,7 +124,8 @@ Deviation measure_deviation(const SurfaceMesh& mesh, const SurfaceMesh& referenc
   require_area(other, "reference");
 
   Deviation deviation;
-  const auto volume = volume_of(mesh), reference_volume = volume_of(reference);
+  const auto volume = volume_of(mesh);
+  const auto reference_volume = options.reference_volume ? options.reference_volume : volume_of(reference);
   if (volume && reference_volume)
     deviation.volume_difference_pct = 100 * (*volume - *reference_volume) / *reference_volume;
   deviation.area_difference_pct = 100 * (own.area() - other.area()) / other.area();
@@ -139,7 +140,14 @@ Deviation measure_deviation(const SurfaceMesh& mesh, const SurfaceMesh& referenc
   deviation.farthest_point = worse.farthest;
   deviation.nearest_to_farthest = worse.nearest_to_it;
   deviation.hausdorff_pct_diagonal = 100 * deviation.hausdorff / diagonal;
-  deviation.rms_pct_diagonal = 100 * std::sqrt(std::max(to_reference.sum_squared, to_mesh.sum_squared)) / diagonal;
+  const auto of_side = [&](const Distances& side) {
+    return OneSidedDistance{100 * std::sqrt(side.largest_squared) / diagonal,
+                            100 * std::sqrt(side.sum_squared) / diagonal};
+  };
+  deviation.from_mesh = of_side(to_reference);
+  deviation.from_reference = of_side(to_mesh);
+  deviation.rms_pct_diagonal =
+      std::max(deviation.from_mesh.rms_pct_diagonal, deviation.from_reference.rms_pct_diagonal);
   return deviation;
 }
 

@@ -18,6 +18,14 @@ struct DeviationOptions {
   // Random points on each surface, beside its vertices; 200,000 settle the RMS of a scan to about 0.3 %.
   std::size_t samples = 200'000;
   std::uint64_t seed = 1;  // of the random points
+  // What the reference encloses, where its own faces do not tell: a scan that is open, or crosses itself.
+  std::optional<double> reference_volume = std::nullopt;
+};
+
+// From the vertices and samples of one surface to the other, in per cent of the diagonal of the reference's box.
+struct OneSidedDistance {
+  double hausdorff_pct_diagonal = 0;
+  double rms_pct_diagonal = 0;
 };
 
 struct Deviation {
@@ -27,6 +35,8 @@ struct Deviation {
   double area_difference_pct = 0;
   double hausdorff_pct_diagonal = 0;   // the larger of the two sides; per cent of the reference's bounding-box diagonal
   double rms_pct_diagonal = 0;         // the larger of the two sides
+  OneSidedDistance from_mesh;          // to the reference: what was invented
+  OneSidedDistance from_reference;     // to the mesh: what was lost
   double hausdorff = 0;                // model units
   Vec3 farthest_point = Vec3::Zero();  // the sample that is farthest from the other surface
   Vec3 nearest_to_farthest = Vec3::Zero();  // the other surface's point nearest to that one

@@ -46,13 +46,20 @@ Json surface_json(const SurfaceFigures& surface) {
           {"area", figure(surface.area)}};
 }
 
+Json side_json(const OneSidedDistance& side) {
+  return {{"hausdorff_pct_diagonal", figure(side.hausdorff_pct_diagonal)},
+          {"rms_pct_diagonal", figure(side.rms_pct_diagonal)}};
+}
+
 Json deviation_json(const Deviation& deviation) {
   const Vec3& p = deviation.farthest_point;
   return {{"volume_difference_pct", figure(deviation.volume_difference_pct)},
           {"area_difference_pct", figure(deviation.area_difference_pct)},
           {"hausdorff_pct_diagonal", figure(deviation.hausdorff_pct_diagonal)},
           {"rms_pct_diagonal", figure(deviation.rms_pct_diagonal)},
-          {"farthest_point", Json::array({figure(p.x()), figure(p.y()), figure(p.z())})}};
+          {"farthest_point", Json::array({figure(p.x()), figure(p.y()), figure(p.z())})},
+          {"from_mesh", side_json(deviation.from_mesh)},
+          {"from_reference", side_json(deviation.from_reference)}};
 }
 
 Json volume_mesh_json(const TetSummary& tets) {
@@ -112,6 +119,9 @@ std::string deviation_table(const Json& d) {
                text(d["hausdorff_pct_diagonal"]) + " % of the diagonal, at (" + text(d["farthest_point"][0], "%.6g") +
                    ", " + text(d["farthest_point"][1], "%.6g") + ", " + text(d["farthest_point"][2], "%.6g") + ")");
   table += row("RMS distance", text(d["rms_pct_diagonal"], "%.5f") + " % of the diagonal");
+  for (const auto& [name, side] : {std::pair("from the mesh", "from_mesh"), {"from the reference", "from_reference"}})
+    table += row(name, "Hausdorff " + text(d[side]["hausdorff_pct_diagonal"]) + " %, RMS " +
+                           text(d[side]["rms_pct_diagonal"], "%.5f") + " %");
   return table;
 }
 

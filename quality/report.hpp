@@ -5,7 +5,8 @@
 //   surface {vertices, faces, edge_ratio {mean, p50, p95, p99, max}, min_angle_deg {mean, min}, max_angle_deg,
 //            radius_ratio {mean, min}, degenerate, closed, manifold, oriented, self_intersections, unused_vertices,
 //            components, genus, volume, area},
-//   deviation {volume_difference_pct, area_difference_pct, hausdorff_pct_diagonal, rms_pct_diagonal, farthest_point},
+//   deviation {volume_difference_pct, area_difference_pct, hausdorff_pct_diagonal, rms_pct_diagonal, farthest_point,
+//              from_mesh {hausdorff_pct_diagonal, rms_pct_diagonal}, from_reference {the same}},
 //   volume_mesh {nodes, tetrahedra, order, min_dihedral_deg, max_dihedral_deg, scaled_jacobian {min, mean}, edge_ratio,
 //                radius_edge_ratio, volume, inverted},
 //   regions [{name, area, faces}], gates [{name, operator, value, limit, pass}]

@@ -35,8 +35,10 @@ int check(const CheckFlags& flags) {
   if (flags.reference) reference = load(*flags.reference).surface;
   const Subject subject{.surface = &mesh.surface,
                         .reference = reference ? &*reference : nullptr,
+                        .solid_volume = {},
                         .volume_mesh = mesh.volume_mesh ? &*mesh.volume_mesh : nullptr,
-                        .stages = nullptr};
+                        .stages = nullptr,
+                        .repaired = nullptr};
   return report_figures(subject, flags.common, gates, display) ? 0 : 1;
 }
 

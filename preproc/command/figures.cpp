@@ -1,6 +1,7 @@
 #include "preproc/command/figures.hpp"
 
 #include "preproc/command/output_files.hpp"
+#include "preproc/surface/repair/solid_volume.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -21,15 +22,36 @@ Json to_json(const std::vector<StageRecord>& stages) {
   return list;
 }
 
+Json list_changes(const RepairResult& repaired, bool (*is_listed)(RepairKind)) {
+  Json list = Json::array();
+  for (const RepairChange& change : repaired.changes) {
+    if (!is_listed(change.kind)) continue;
+    const Vec3& p = change.place;
+    Json entry{
+        {"what", name(change.kind)}, {"place", {p.x(), p.y(), p.z()}}, {"size", change.size}, {"area", change.area}};
+    if (change.volume > 0) entry["volume"] = change.volume;
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
 Json measure(const Subject& subject, const CommonFlags& flags) {
   Report report;
   report.input = flags.input.string();
   if (subject.surface != nullptr) report.surface = measure_surface(*subject.surface);
-  if (subject.surface != nullptr && subject.reference != nullptr)
-    report.deviation = measure_deviation(*subject.surface, *subject.reference, {.seed = flags.seed});
+  if (subject.surface != nullptr && subject.reference != nullptr) {
+    std::optional<double> volume = subject.solid_volume;
+    if (!volume && encloses_volume(*subject.surface)) volume = volume_of_solid(*subject.reference);
+    report.deviation =
+        measure_deviation(*subject.surface, *subject.reference, {.seed = flags.seed, .reference_volume = volume});
+  }
   if (subject.volume_mesh != nullptr) report.volume_mesh = measure_tetrahedra(*subject.volume_mesh);
   Json json = scan2fea::to_json(report);
   if (flags.unit) json["unit"] = *flags.unit;
+  if (subject.repaired != nullptr) {
+    json["lost"] = list_changes(*subject.repaired, is_lost);
+    json["made_up"] = list_changes(*subject.repaired, is_made_up);
+  }
   if (subject.stages != nullptr) json["stages"] = to_json(*subject.stages);
   return json;
 }

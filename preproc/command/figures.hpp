@@ -11,12 +11,15 @@ namespace scan2fea::command {
 // Parses the gates, before any work is done (WrongUsage).
 std::vector<Gate> parse_gates(const CommonFlags& flags);
 
-// What is measured; a reference is what the surface is compared with.
+// What is measured; a reference is what the surface is compared with. `solid_volume` is what `volume_of_solid` of the
+// reference gives, where it is known; it is found where it is needed.
 struct Subject {
   const SurfaceMesh* surface = nullptr;
   const SurfaceMesh* reference = nullptr;
+  std::optional<double> solid_volume;
   const TetMesh* volume_mesh = nullptr;
   const std::vector<StageRecord>* stages = nullptr;
+  const RepairResult* repaired = nullptr;
 };
 
 // Returns whether all gates pass. Writes --json and --report; says which gates failed.

@@ -81,10 +81,14 @@ int make_mesh(MakeMeshJob job) {
 
   const bool figures_wanted = !job.common.quiet || job.common.json || job.common.report || !gates.empty();
   if (figures_wanted) {
-    const Subject subject{.surface = &result.surface,
-                          .reference = &result.scan,
+    // As `check` will find it in the file.
+    const SurfaceMesh boundary = result.volume_mesh ? boundary_surface(*result.volume_mesh) : SurfaceMesh{};
+    const Subject subject{.surface = result.volume_mesh ? &boundary : &result.surface,
+                          .reference = &result.reference(),
+                          .solid_volume = result.solid_volume,
                           .volume_mesh = result.volume_mesh ? &*result.volume_mesh : nullptr,
-                          .stages = &result.stages};
+                          .stages = &result.stages,
+                          .repaired = &result.repaired};
     if (!report_figures(subject, job.common, gates, display)) return 1;
   }
   if (job.features.write) write_feature_lines(result.features, *job.features.write);

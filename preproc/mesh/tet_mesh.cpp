@@ -45,9 +45,11 @@ SurfaceMesh boundary_surface(const TetMesh& mesh) {
   SurfaceMesh surface;
   surface.triangles.reserve(mesh.boundary.size());
   for (const BoundaryFace f : mesh.boundary) {
-    surface.triangles.push_back(boundary_triangle(mesh, f));
-    for (const std::uint32_t v : surface.triangles.back()) renumbered[v] = 0;
+    Triangle& t = surface.triangles.emplace_back(boundary_triangle(mesh, f));
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+    for (const std::uint32_t v : t) renumbered[v] = 0;
   }
+  std::sort(surface.triangles.begin(), surface.triangles.end());
   for (std::size_t v = 0; v < mesh.nodes.size(); ++v) {
     if (renumbered[v] == unused) continue;
     renumbered[v] = static_cast<std::uint32_t>(surface.vertices.size());

@@ -15,11 +15,23 @@
 namespace scan2fea {
 namespace {
 
+// Where each face crosses more others than this, sheets lie in a tangle that tells no inside from outside, and that
+// takes long to arrange. Solids that cross have two or three pairs a face.
+constexpr std::size_t most_pairs_a_face = 8;
+
 // Shells that cross one another, and the pairs in which they do.
 struct CrossingSet {
   std::vector<std::size_t> shells;
   std::vector<FacePair> pairs;
 };
+
+bool is_tangle(const CrossingSet& set) {
+  std::vector<std::uint32_t> faces;
+  for (const FacePair& pair : set.pairs) faces.insert(faces.end(), {pair.face, pair.other});
+  std::sort(faces.begin(), faces.end());
+  const auto last = std::unique(faces.begin(), faces.end());
+  return set.pairs.size() > most_pairs_a_face * static_cast<std::size_t>(last - faces.begin());
+}
 
 std::vector<CrossingSet> find_sets(const SurfaceMesh& mesh, const std::vector<Shell>& shells,
                                    std::span<const FacePair> pairs, Crossings which) {
@@ -37,7 +49,7 @@ std::vector<CrossingSet> find_sets(const SurfaceMesh& mesh, const std::vector<Sh
   std::vector<CrossingSet> by_root(shells.size());
   for (const FacePair& pair : wanted) by_root[joined.find(shell_of_face[pair.face])].pairs.push_back(pair);
   for (std::uint32_t s = 0; s < shells.size(); ++s) by_root[joined.find(s)].shells.push_back(s);
-  std::erase_if(by_root, [](const CrossingSet& set) { return set.pairs.empty(); });
+  std::erase_if(by_root, [](const CrossingSet& set) { return set.pairs.empty() || is_tangle(set); });
   return by_root;
 }
 

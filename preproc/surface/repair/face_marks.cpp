@@ -63,7 +63,7 @@ void remove_faces(SurfaceMesh& mesh, const FaceMarks& marks, RepairResult& resul
 
 void log_faces(const SurfaceMesh& mesh, const FaceMarks& marks, RepairKind kind, RepairResult& result) {
   for (std::uint32_t f = 0; f < marks.size(); ++f)
-    if (marks[f]) result.changes.push_back({kind, centre_of(mesh, f), area_of(mesh, f)});
+    if (marks[f]) result.changes.push_back({kind, centre_of(mesh, f), area_of(mesh, f), area_of(mesh, f)});
 }
 
 }  // namespace scan2fea

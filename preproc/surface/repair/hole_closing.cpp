@@ -1,6 +1,7 @@
 #include "preproc/surface/repair/hole_closing.hpp"
 
 #include "preproc/mesh/error_text.hpp"
+#include "preproc/surface/repair/face_marks.hpp"
 #include "preproc/surface/repair/hole_filling.hpp"
 #include "preproc/surface/repair/shells.hpp"
 #include "preproc/surface/repair/soup_adjacency.hpp"
@@ -90,13 +91,14 @@ void fill_holes(SurfaceMesh& mesh, const Twins& twins, RepairResult& result, con
       changed = true;
     }
   }
-  for (const BorderLoop& loop : loops) {
-    const BoundingBox box = box_of(mesh, loop);
-    result.changes.push_back({RepairKind::ClosedHole, (box.low + box.high) / 2, box.diagonal()});
-  }
-  for (const Patch& patch : patches) {
-    result.faces_added += patch.triangles.size();
-    append_patch(mesh, patch);
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    const BoundingBox box = box_of(mesh, loops[i]);
+    const std::size_t first = mesh.triangles.size();
+    append_patch(mesh, patches[i]);
+    double area = 0;
+    for (std::size_t f = first; f < mesh.triangles.size(); ++f) area += area_of(mesh, static_cast<std::uint32_t>(f));
+    result.faces_added += patches[i].triangles.size();
+    result.changes.push_back({RepairKind::ClosedHole, (box.low + box.high) / 2, box.diagonal(), area});
   }
 }
 

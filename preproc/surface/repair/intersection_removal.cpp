@@ -59,8 +59,8 @@ void log_cuts(const SurfaceMesh& mesh, const FaceMarks& marks, RepairResult& res
       any[cuts.of_face[f]] = centre_of(mesh, f);
     }
   for (std::size_t i = 0; i < cuts.area.size(); ++i)
-    result.changes.push_back(
-        {RepairKind::Intersection, cuts.area[i] > 0 ? Vec3(weighted[i] / cuts.area[i]) : any[i], cuts.area[i]});
+    result.changes.push_back({RepairKind::Intersection, cuts.area[i] > 0 ? Vec3(weighted[i] / cuts.area[i]) : any[i],
+                              cuts.area[i], cuts.area[i]});
 }
 
 // The border edges of a surface, to be known again by their places when the indices are others.

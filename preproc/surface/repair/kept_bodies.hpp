@@ -12,18 +12,24 @@ namespace scan2fea {
 // All but those that are small beside the largest both in size, below a tenth of its bounding box's diagonal, and in
 // what they hold, below a thousandth of its volume (of its area, where one of the two is open). A body that is small in
 // one of them alone (a long thin rod, a small solid beside a large thin frame) may well carry load.
-struct BodiesOfNote {};
+struct BodiesOfNote {
+  bool operator==(const BodiesOfNote&) const = default;
+};
 
-struct AllBodies {};
+struct AllBodies {
+  bool operator==(const AllBodies&) const = default;
+};
 
 // The largest by area.
 struct LargestBodies {
   std::size_t count = 1;
+  bool operator==(const LargestBodies&) const = default;
 };
 
 // Those whose bounding box has a diagonal of this length or more, in model units.
 struct BodiesAbove {
   double diagonal = 0;
+  bool operator==(const BodiesAbove&) const = default;
 };
 
 using KeptBodies = std::variant<BodiesOfNote, AllBodies, LargestBodies, BodiesAbove>;

@@ -104,6 +104,7 @@ RepairResult repair(SurfaceMesh& mesh, const RepairOptions& options, const Progr
   if (result.count(RepairKind::Intersection) + result.count(RepairKind::UnitedShell) > 0)
     drop_debris(mesh, options.bodies, result);  // crossings may have parted pieces from the whole
   drop_unused_vertices(mesh);
+  for (const Shell& shell : find_shells(mesh)) result.bodies += shell.volume > 0;
   progress("repair", 1);
   return result;
 }

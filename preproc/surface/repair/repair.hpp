@@ -29,6 +29,8 @@ struct RepairOptions {
   // Components that enclose no volume (flat, or with a hole that is too large to close) are dropped if their area is
   // below this fraction of the whole; above it they are an error. [0, 1]. 0.01: a scan's stray sheets are below it.
   double fragment_of_area = 0.01;
+
+  bool operator==(const RepairOptions&) const = default;
 };
 
 // The steps, in this order; each leaves alone what is sound:

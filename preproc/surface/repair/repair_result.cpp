@@ -35,6 +35,24 @@ std::string_view name(RepairKind kind) {
   return name_in(names, kind);
 }
 
+bool is_lost(RepairKind kind) {
+  switch (kind) {
+    case RepairKind::DuplicateFace:
+    case RepairKind::InnerWall:
+    case RepairKind::DroppedSpeck:
+    case RepairKind::FilledCavity:
+    case RepairKind::DroppedFragment:
+    case RepairKind::DroppedInside:
+      return true;
+    default:
+      return false;
+  }
+}
+
+bool is_made_up(RepairKind kind) {
+  return kind == RepairKind::ClosedHole || kind == RepairKind::NonManifoldFaces || kind == RepairKind::Intersection;
+}
+
 std::size_t RepairResult::count(RepairKind kind) const {
   return static_cast<std::size_t>(
       std::count_if(changes.begin(), changes.end(), [&](const RepairChange& c) { return c.kind == kind; }));

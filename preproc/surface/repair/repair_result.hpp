@@ -34,15 +34,24 @@ std::string_view name(RepairKind kind);
 
 struct RepairChange {
   RepairKind kind;
-  Vec3 place;   // a point of what was changed, or its centre
-  double size;  // model units; what it measures is said beside each kind
+  Vec3 place;         // a point of what was changed, or its centre
+  double size;        // model units; what it measures is said beside each kind
+  double area = 0;    // of what is_lost or is_made_up
+  double volume = 0;  // of a closed body that was dropped
 };
+
+// Whether such a change leaves out something that the scan shows: walls, bodies, doubled sheets.
+bool is_lost(RepairKind kind);
+
+// Whether such a change puts faces where the scan shows none, or other ones: over holes and where it was cut.
+bool is_made_up(RepairKind kind);
 
 struct RepairResult {
   std::vector<RepairChange> changes;   // in the order in which they were made
   std::size_t intersecting_pairs = 0;  // pairs of faces that crossed before any were removed
   std::size_t faces_removed = 0;       // patches that did not last included, as in faces_added
   std::size_t faces_added = 0;
+  std::size_t bodies = 0;  // closed shells that face outwards, at the end
 
   bool unchanged() const { return changes.empty(); }
   std::size_t count(RepairKind kind) const;

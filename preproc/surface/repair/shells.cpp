@@ -93,7 +93,9 @@ void drop_shells(SurfaceMesh& mesh, const std::vector<Shell>& shells,
   for (std::size_t s = 0; s < shells.size(); ++s) {
     if (!reasons[s]) continue;
     for (const std::uint32_t f : shells[s].faces) of_face[f] = 1;
-    result.changes.push_back({*reasons[s], (shells[s].box.low + shells[s].box.high) / 2, shells[s].area});
+    const Shell& shell = shells[s];
+    result.changes.push_back({*reasons[s], (shell.box.low + shell.box.high) / 2, shell.area, shell.area,
+                              shell.open ? 0 : std::abs(shell.volume)});
   }
   remove_faces(mesh, of_face, result);
 }

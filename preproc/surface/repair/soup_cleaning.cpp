@@ -282,7 +282,7 @@ void drop_inner_walls(SurfaceMesh& mesh, RepairResult& result) {
   for (const Sheets::Sheet& sheet : sheets.by_area()) {
     if (!sheets.is_wall(sheet)) continue;
     sheets.drop(sheet);
-    result.changes.push_back({RepairKind::InnerWall, centre_of(mesh, sheet.first_face), sheet.area});
+    result.changes.push_back({RepairKind::InnerWall, centre_of(mesh, sheet.first_face), sheet.area, sheet.area});
   }
   remove_faces(mesh, sheets.dropped_faces(), result);
 }
