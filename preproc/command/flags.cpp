@@ -48,6 +48,9 @@ Choices<Enum> named(const Enum (&values)[n]) {
   return choices;
 }
 
+const Choices<ThickenTo> thicken_sides{
+    {"both", ThickenTo::both}, {"front", ThickenTo::front}, {"back", ThickenTo::back}};
+
 // A whole number counts bodies; a length has a point or an exponent.
 KeptBodies parse_bodies(const std::string& text) {
   if (text == "all") return AllBodies{};
@@ -154,6 +157,22 @@ void add_repair_flags(CLI::App& command, RepairOptions& options) {
           },
           "Close holes up to this size, % of their component's diagonal, or 'all'; the default is 35%")
       ->type_name("P%");
+  command
+      .add_option_function<std::string>(
+          "--thickness",
+          [&options](const std::string& text) {
+            const std::size_t colon = text.find(':');
+            const std::string side = colon == std::string::npos ? "both" : text.substr(colon + 1);
+            const RelativeLength length = parse_length(text.substr(0, colon), '%');
+            const auto named = std::find_if(thicken_sides.begin(), thicken_sides.end(),
+                                            [&](const auto& choice) { return choice.first == side; });
+            if (length.relative || named == thicken_sides.end())
+              throw CLI::ValidationError("--thickness", "'" + text + "' is no length with :both, :front or :back");
+            options.thickness = Thickness{length.value, named->second};
+          },
+          "Make a solid of this thickness of an open sheet, to both sides of it or, with :front or :back after the "
+          "length, to one")
+      ->type_name("T");
   command
       .add_option_function<std::string>(
           "--keep", [&options](const std::string& text) { options.bodies = parse_bodies(text); },

@@ -41,6 +41,19 @@ std::vector<std::optional<LargeHole>> find_large_holes(const SurfaceMesh& mesh, 
   return large;
 }
 
+// Whoever scanned one side of a panel needs something else than whoever scanned most of a solid.
+[[noreturn]] void fail_of_hole(const SurfaceMesh& mesh, const Shell& shell, const LargeHole& hole) {
+  const bool is_solid = nearly_encloses(mesh, shell);
+  throw NotMeshable({.what = is_solid
+                                 ? "the surface is open: its hole is too large to close"
+                                 : "the surface is a sheet that encloses no volume: its opening is too large to close",
+                     .where = error_text(hole.place),
+                     .value = "size " + error_text(hole.size),
+                     .limit = error_text(hole.limit),
+                     .advice = is_solid ? "a scan of what is missing, or --largest-hole all, which makes it up"
+                                        : "--thickness T, which makes a solid of the sheet, or a scan of all sides"});
+}
+
 std::optional<PatchShape> plainer(PatchShape shape) {
   switch (shape) {
     case PatchShape::Faired:
@@ -108,19 +121,14 @@ void close_holes(SurfaceMesh& mesh, const HoleClosingOptions& options, RepairRes
   Twins twins = find_twins(mesh);
   if (std::find(twins.begin(), twins.end(), no_twin) == twins.end()) return;
   if (options.largest_of_diagonal) {
-    const std::vector<Shell> shells = find_shells(mesh);
+    const std::vector<Shell> shells = find_shells(mesh, true);
     const auto large = find_large_holes(mesh, shells, twins, *options.largest_of_diagonal);
     const double fragment_area = options.fragment_of_area * surface_area(mesh);
     std::vector<std::optional<RepairKind>> reasons(shells.size());
     for (std::size_t s = 0; s < shells.size(); ++s) {
       if (!large[s]) continue;
       reasons[s] = RepairKind::DroppedFragment;
-      if (shells[s].area >= fragment_area)
-        throw NotMeshable({.what = "the surface is open: its hole is too large to close",
-                           .where = error_text(large[s]->place),
-                           .value = "size " + error_text(large[s]->size),
-                           .limit = error_text(large[s]->limit),
-                           .advice = "--largest-hole all, or a scan of what is missing"});
+      if (shells[s].area >= fragment_area) fail_of_hole(mesh, shells[s], *large[s]);
     }
     drop_shells(mesh, shells, reasons, result);
     twins = find_twins(mesh);

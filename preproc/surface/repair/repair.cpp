@@ -84,6 +84,7 @@ RepairResult repair(SurfaceMesh& mesh, const RepairOptions& options, const Progr
     make_manifold(mesh, result);
   }
   if (!sound || validity.components > 1) drop_debris(mesh, options.bodies, result);
+  if (!sound && options.thickness) thicken_sheets(mesh, *options.thickness, result);
   if (!sound && !keep_holes) {
     close_holes(mesh, {options.largest_hole_of_diagonal, options.fragment_of_area}, result, progress);
     make_manifold(mesh, result);

@@ -7,6 +7,7 @@
 #include "preproc/mesh/surface_mesh.hpp"
 #include "preproc/surface/repair/kept_bodies.hpp"
 #include "preproc/surface/repair/repair_result.hpp"
+#include "preproc/surface/repair/thicken.hpp"
 
 #include <optional>
 
@@ -22,6 +23,9 @@ struct RepairOptions {
   // an error, since a patch over it would be invented rather than interpolated. Unset: all are closed. [0, 1].
   // 0.35: the base of a statue that a scanner could not see is about that, the mouth of a vase or an open sheet above.
   std::optional<double> largest_hole_of_diagonal = 0.35;
+
+  // Makes solids of open shells instead of closing their holes: a panel or a cup that was scanned from one side.
+  std::optional<Thickness> thickness = std::nullopt;
 
   // Which bodies stay; the others are dropped before anything is done to them.
   KeptBodies bodies = BodiesOfNote{};
@@ -45,6 +49,8 @@ struct RepairOptions {
 // 3. Closed. Holes are triangulated with the least worst dihedral angles and area, refined to the density of the
 // border, and faired tangent-continuously, or as a membrane (flat if the border is) where the border is a sharp edge.
 // Faces of no area are mended by collapsing and flipping edges.
+//
+// Instead, with a thickness, open shells become solids (thicken.hpp).
 //
 // 4. Outwards. Shells are oriented by nesting: the outermost outwards, cavities inwards, parts within cavities
 // outwards.

@@ -8,7 +8,7 @@
 namespace scan2fea {
 namespace {
 
-constexpr NameTable<RepairKind, 18> names{{
+constexpr NameTable<RepairKind, 19> names{{
     {RepairKind::WeldedVertex, "welded vertex"},
     {RepairKind::SplitEdge, "split edge"},
     {RepairKind::UnusedVertex, "unused vertex"},
@@ -22,6 +22,7 @@ constexpr NameTable<RepairKind, 18> names{{
     {RepairKind::FilledCavity, "filled cavity"},
     {RepairKind::DroppedFragment, "dropped fragment"},
     {RepairKind::DroppedInside, "dropped inner piece"},
+    {RepairKind::ThickenedSheet, "thickened sheet"},
     {RepairKind::ClosedHole, "closed hole"},
     {RepairKind::PartedTouch, "parted touch"},
     {RepairKind::UnitedShell, "united shell"},
@@ -50,7 +51,8 @@ bool is_lost(RepairKind kind) {
 }
 
 bool is_made_up(RepairKind kind) {
-  return kind == RepairKind::ClosedHole || kind == RepairKind::NonManifoldFaces || kind == RepairKind::Intersection;
+  return kind == RepairKind::ThickenedSheet || kind == RepairKind::ClosedHole || kind == RepairKind::NonManifoldFaces ||
+         kind == RepairKind::Intersection;
 }
 
 std::size_t RepairResult::count(RepairKind kind) const {

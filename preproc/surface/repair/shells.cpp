@@ -33,17 +33,6 @@ Enclosure enclosure(const SurfaceMesh& mesh, const Shell& inner, const Shell& ou
   return {inside == count, 2 * inside > count};
 }
 
-// Whether a shell is closed but for holes that have little area beside it, so that its volume has a meaningful sign:
-// the area vectors of a closed surface cancel. A tube is, a hemisphere or a dented sheet is not.
-bool nearly_encloses(const SurfaceMesh& mesh, const Shell& shell) {
-  constexpr double most_open_area = 0.25, least_volume_of_area = 1e-3;
-  if (!shell.open) return true;
-  Vec3 sum = Vec3::Zero();
-  for (const std::uint32_t f : shell.faces) sum += area_vector(mesh, mesh.triangles[f]) / 2;
-  return sum.norm() < most_open_area * shell.area &&
-         std::abs(shell.volume) > least_volume_of_area * std::pow(shell.area, 1.5);
-}
-
 void turn(SurfaceMesh& mesh, const Shell& shell, RepairResult& result) {
   for (const std::uint32_t f : shell.faces) std::swap(mesh.triangles[f][1], mesh.triangles[f][2]);
   result.changes.push_back({RepairKind::TurnedFaces, centre_of(mesh, shell.faces[0]), shell.area});
@@ -53,6 +42,15 @@ void turn(SurfaceMesh& mesh, const Shell& shell, RepairResult& result) {
 
 bool contains(const BoundingBox& outer, const BoundingBox& inner) {
   return (outer.low.array() <= inner.low.array()).all() && (outer.high.array() >= inner.high.array()).all();
+}
+
+bool nearly_encloses(const SurfaceMesh& mesh, const Shell& shell) {
+  constexpr double most_open_area = 0.25, least_volume_of_area = 1e-3;
+  if (!shell.open) return true;
+  Vec3 sum = Vec3::Zero();
+  for (const std::uint32_t f : shell.faces) sum += area_vector(mesh, mesh.triangles[f]) / 2;
+  return sum.norm() < most_open_area * shell.area &&
+         std::abs(shell.volume) > least_volume_of_area * std::pow(shell.area, 1.5);
 }
 
 std::vector<Shell> find_shells(const SurfaceMesh& mesh, bool tell_open) {

@@ -31,6 +31,10 @@ void drop_shells(SurfaceMesh& mesh, const std::vector<Shell>& shells,
 // lies outside of all. O(n) of the shells whose boxes contain its box.
 double winding_of_others(const SurfaceMesh& mesh, const std::vector<Shell>& shells, std::size_t shell);
 
+// Whether a shell is closed but for holes that have little area beside it, so that its volume has a meaningful sign:
+// the area vectors of a closed surface cancel. A tube is, a hemisphere or a dented sheet is not.
+bool nearly_encloses(const SurfaceMesh& mesh, const Shell& shell);
+
 // Turns shells so that those that an even number of others enclose face outwards, and the others inwards: solids,
 // cavities, solids in cavities. A shell that only partly lies in another counts as outside, unless it faces inwards
 // already. Open shells enclose nothing, and are turned outwards only where their holes are small beside them.
