@@ -77,5 +77,22 @@ TEST(PreserveVolume, RefusesAnOpenSurface) {
   EXPECT_THROW(preserve_volume(mesh, analytic::sphere(1, 4)), NotMeshable);
 }
 
+TEST(PreserveVolume, PlaneFacesStayPlaneWhereCurvedOnesCanGiveTheVolume) {
+  const SurfaceMesh fine = analytic::cylinder(1, 2, 96, 20);
+  SurfaceMesh coarse = analytic::cylinder(1, 2, 24, 6);
+  const SurfaceMesh before = coarse;
+  VertexConstraints constraints(coarse.vertices.size(), VertexConstraint::free);
+  const auto is_cap = [](const Vec3& p) { return p.z() < 1e-9 || p.z() > 2 - 1e-9; };
+  for (std::size_t v = 0; v < coarse.vertices.size(); ++v)
+    if (is_cap(coarse.vertices[v]) && coarse.vertices[v].head<2>().norm() > 0.9)
+      constraints[v] = VertexConstraint::fixed;
+  preserve_volume(coarse, fine, constraints);
+  EXPECT_NEAR(enclosed_volume(coarse) / enclosed_volume(fine), 1, 1e-12);
+  for (std::size_t v = 0; v < coarse.vertices.size(); ++v)
+    if (is_cap(before.vertices[v])) {
+      EXPECT_EQ(coarse.vertices[v], before.vertices[v]);
+    }
+}
+
 }  // namespace
 }  // namespace scan2fea

@@ -141,6 +141,14 @@ void add_size_flags(CLI::App& command, SizeFlags& flags) {
 }
 
 void add_repair_flags(CLI::App& command, RepairOptions& options) {
+  add_choice<RepairLevel>(
+      command, "--repair", options.level,
+      {{"off", RepairLevel::off},
+       {"gentle", RepairLevel::gentle},
+       {"full", RepairLevel::full},
+       {"wrap", RepairLevel::wrap}},
+      "How far repair may go: not at all, without moving or making up anything, as far as it takes, "
+      "or, where that fails, to a surface around the scan");
   add_choice<Holes>(command, "--holes", options.holes, {{"close", Holes::close}, {"keep", Holes::keep}},
                     "What becomes of holes; kept ones make a surface that no volume fits in");
   command

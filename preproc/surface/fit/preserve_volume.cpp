@@ -123,6 +123,36 @@ double shift_to_volume(SurfaceMesh& mesh, const std::vector<std::uint32_t>& face
   return total;
 }
 
+// A part's plane faces stay plane as long as something else can give the volume: vertices in them get no direction,
+// unless that leaves less than a twentieth of the component's area to move.
+void hold_planes(const SurfaceMesh& mesh, const Parts& parts, std::vector<Vec3>& directions) {
+  constexpr double plane_rad = 1e-4;  // 32-bit coordinates turn a triangle by less, a curved surface by far more
+  constexpr double least_moving_area = 0.05;
+  const VertexStars stars(mesh);
+  const std::vector<Vec3> all = directions;
+  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
+    const Vec3 normal = directions[v].normalized();
+    const auto corners = stars.corners(v);
+    if (std::all_of(corners.begin(), corners.end(), [&](std::uint32_t corner) {
+          const Vec3 area = area_vector(mesh, mesh.triangles[corner / 3]);
+          return area.cross(normal).norm() <= plane_rad * area.norm();
+        }))
+      directions[v].setZero();
+  }
+  for (const std::vector<std::uint32_t>& faces : parts.faces) {
+    double moving = 0, whole = 0;
+    for (const std::uint32_t f : faces)
+      for (const std::uint32_t v : mesh.triangles[f]) {
+        const double area = area_vector(mesh, mesh.triangles[f]).norm();
+        whole += area;
+        if (!directions[v].isZero()) moving += area;
+      }
+    if (moving >= least_moving_area * whole) continue;
+    for (const std::uint32_t f : faces)
+      for (const std::uint32_t v : mesh.triangles[f]) directions[v] = all[v];
+  }
+}
+
 }  // namespace
 
 VolumeShift preserve_volume(SurfaceMesh& mesh, const SurfaceMesh& like, const VertexConstraints& constraints) {
@@ -149,6 +179,7 @@ VolumeShift preserve_volume(SurfaceMesh& mesh, const SurfaceMesh& like, const Ve
   for (std::size_t v = 0; v < constraints.size(); ++v) {
     if (constraints[v] == VertexConstraint::fixed) directions[v].setZero();
   }
+  hold_planes(mesh, parts, directions);
 
   VolumeShift result{0, parts.faces.size()};
   for (std::size_t c = 0; c < parts.faces.size(); ++c) {

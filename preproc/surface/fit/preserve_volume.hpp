@@ -16,7 +16,8 @@ struct VolumeShift {
 // Moves every free vertex of `mesh` by the same distance along its normal, per connected component, so that each
 // component encloses the volume of the component of `like` that it stands for (the one whose vertices are nearest), to
 // the rounding of the coordinates. Where the components cannot be paired one to one, all are shifted by one distance to
-// the volume of the whole.
+// the volume of the whole. Vertices of plane faces stay where they are if what is curved has a twentieth of the
+// component's area or more.
 // Throws NotMeshable for surfaces that are not closed and oriented, where the shift would exceed a mean edge length
 // (the two then do not stand for the same body), and where no shift reaches the volume. Near linear in the meshes. Not
 // guaranteed: that the shift makes no triangles cross; it is far below an edge length for a fitted surface, but see

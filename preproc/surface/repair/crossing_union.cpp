@@ -100,7 +100,7 @@ std::vector<std::uint32_t> number_crossings(const Part& part) {
   return number;
 }
 
-// How often the surface winds about points on either side of one of its faces.
+// How often the surface winds about points on either side of one of its faces; the same on both where nobody knows.
 struct Sides {
   int outside = 0;  // where its normal points
   int inside = 0;
@@ -151,6 +151,42 @@ class Winding {
   const Arrangement& arrangement_;
 };
 
+// What is narrower than this cannot be told from rounding: lines that should meet in a point, or lie upon each other,
+// meet in several points, and leave slivers between them.
+double rounding_of(const SurfaceMesh& mesh) {
+  return 1e-10 * bounding_box(mesh.vertices).diagonal();
+}
+
+// Vertices that rounding alone keeps apart become one.
+void join_close_vertices(Arrangement& arrangement) {
+  SurfaceMesh& mesh = arrangement.mesh;
+  const double close = rounding_of(mesh);
+  UnionFind joined(mesh.vertices.size());
+  for (const Triangle& t : mesh.triangles)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t a = t[i], b = t[(i + 1) % 3];
+      if ((mesh.vertices[a] - mesh.vertices[b]).norm() < close) joined.unite(a, b);
+    }
+  std::size_t kept = 0;
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    Triangle t = mesh.triangles[f];
+    for (std::uint32_t& v : t) v = joined.find(v);
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
+    mesh.triangles[kept] = t;
+    arrangement.face_of[kept++] = arrangement.face_of[f];
+  }
+  mesh.triangles.resize(kept);
+  arrangement.face_of.resize(kept);
+}
+
+bool is_sliver(const SurfaceMesh& mesh, std::uint32_t face, double width) {
+  const Triangle& t = mesh.triangles[face];
+  double longest = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+    longest = std::max(longest, (mesh.vertices[t[i]] - mesh.vertices[t[(i + 1) % 3]]).norm());
+  return 2 * area_of(mesh, face) < width * longest;
+}
+
 // Triangles that hang together across edges of two, and the largest of each such piece.
 std::vector<std::uint32_t> largest_of_pieces(const SurfaceMesh& mesh, UnionFind& pieces) {
   EdgeGroups(mesh).for_each([&](const std::uint32_t* first, const std::uint32_t* last) {
@@ -174,14 +210,16 @@ std::optional<Union> unite(Part& part, bool may_be_inside_out) {
   const std::vector<std::uint32_t> crossing = number_crossings(part);
   while (!part.pairs.empty()) {
     Union made{arrange(part.mesh, part.pairs), {}};
+    join_close_vertices(made.arrangement);
     SurfaceMesh& mesh = made.arrangement.mesh;
     made.kept.assign(mesh.triangles.size(), 0);
     const Winding winding(part.mesh, made.arrangement);
     UnionFind pieces(mesh.triangles.size());
     const std::vector<std::uint32_t> largest = largest_of_pieces(mesh, pieces);
     std::vector<Sides> sides(mesh.triangles.size());
+    const double width = rounding_of(mesh);
     for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f)
-      if (largest[f] != no_face) sides[f] = winding.beside(largest[f]);
+      if (largest[f] != no_face && !is_sliver(mesh, largest[f], width)) sides[f] = winding.beside(largest[f]);
     std::vector<char> inside_out(part.mesh.triangles.size(), 0);  // by crossing
     std::vector<char> crossed = marks_of(part.pairs, part.mesh.triangles.size());
     for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {

@@ -22,7 +22,8 @@ enum class Crossings {
 // `pairs` are the surface's intersecting pairs. Faces that nothing crosses stay where they are or go; new ones come
 // last. Vertices stay bit by bit; new ones, where shells cross, are rounded, which can make their faces cross again by
 // a rounding error. Returns whether anything changed. Precondition: closed, manifold, oriented; afterwards the surface
-// may have edges of four faces (where solids touch along an edge).
+// may have edges of four faces (where solids touch along an edge), and cracks as wide as rounding (where it left
+// slivers out of account).
 //
 // Costs the arrangement (see arrangement.hpp) and O(n) for each piece that the crossings part the surface into.
 bool unite_crossings(SurfaceMesh& mesh, std::span<const FacePair> pairs, Crossings which, RepairResult& result);

@@ -1,12 +1,12 @@
 #include "preproc/surface/repair/intersection_removal.hpp"
 
+#include "preproc/surface/repair/border_stitching.hpp"
 #include "preproc/surface/repair/crossing_union.hpp"
 #include "preproc/surface/repair/degenerate_faces.hpp"
 #include "preproc/surface/repair/face_marks.hpp"
 #include "preproc/surface/repair/fold_smoothing.hpp"
 #include "preproc/surface/repair/hole_filling.hpp"
 #include "preproc/surface/repair/soup_adjacency.hpp"
-#include "preproc/surface/repair/soup_cleaning.hpp"
 #include "quality/self_intersections.hpp"
 
 #include <algorithm>
@@ -95,15 +95,22 @@ void mark_non_manifold(const SurfaceMesh& mesh, FaceMarks& marks) {
   });
 }
 
-// The pairs become those of the surface of the union, with one fan of faces per vertex.
+// The pairs become those of the surface of the union, with one fan of faces per vertex. Where rounding leaves it open
+// there is no union.
 void unite(SurfaceMesh& mesh, std::vector<FacePair>& pairs, Crossings which, RepairResult& result) {
-  if (!unite_crossings(mesh, pairs, which, result)) return;
-  RepairResult of_the_union;  // what follows from it: nothing to report
-  drop_collapsed_faces(mesh, of_the_union);
-  make_manifold(mesh, of_the_union);
-  mend_degenerate_faces(mesh, of_the_union);
-  result.faces_removed += of_the_union.faces_removed;
+  SurfaceMesh united = mesh;
+  RepairResult of_the_union;
+  if (!unite_crossings(united, pairs, which, of_the_union)) return;
+  RepairResult of_its_rounding;  // what follows from it: nothing to report
+  stitch_borders(united, of_its_rounding);
+  make_manifold(united, of_its_rounding);
+  mend_degenerate_faces(united, of_its_rounding);
+  if (!Borders(united).empty()) return;
+  mesh = std::move(united);
   pairs = find_self_intersections(mesh);
+  result.changes.insert(result.changes.end(), of_the_union.changes.begin(), of_the_union.changes.end());
+  result.faces_added += of_the_union.faces_added;
+  result.faces_removed += of_the_union.faces_removed + of_its_rounding.faces_removed;
 }
 
 }  // namespace

@@ -3,11 +3,14 @@
 #include "preproc/mesh/error_text.hpp"
 #include "preproc/surface/repair/border_stitching.hpp"
 #include "preproc/surface/repair/degenerate_faces.hpp"
+#include "preproc/surface/repair/face_marks.hpp"
 #include "preproc/surface/repair/hole_closing.hpp"
 #include "preproc/surface/repair/intersection_removal.hpp"
 #include "preproc/surface/repair/shells.hpp"
 #include "preproc/surface/repair/soup_adjacency.hpp"
 #include "preproc/surface/repair/soup_cleaning.hpp"
+#include "preproc/surface/repair/wrap.hpp"
+#include "quality/self_intersections.hpp"
 #include "quality/validity.hpp"
 
 #include <algorithm>
@@ -66,15 +69,61 @@ void drop_flat_shells(SurfaceMesh& mesh, const RepairOptions& options, RepairRes
                      .value = std::to_string(result.intersecting_pairs) + " pairs of faces; " +
                               error_text(100 * cut_of_area) + " % of the area cut to mend them",
                      .limit = error_text(100 * most_cut_of_area) + " %",
-                     .advice = "a scan with less noise and without overlapping sheets"});
+                     .advice = "--repair wrap, or a scan with less noise and without overlapping sheets"});
 }
 
-}  // namespace
+[[noreturn]] void fail_of_level(const std::string& what, const Vec3& place, const std::string& value) {
+  throw NotMeshable({.what = what,
+                     .where = error_text(place),
+                     .value = value,
+                     .limit = "none with --repair off or gentle",
+                     .advice = "--repair full"});
+}
 
-RepairResult repair(SurfaceMesh& mesh, const RepairOptions& options, const Progress& progress) {
+// What only the full repair mends.
+void require_closed(const SurfaceMesh& mesh) {
+  const Twins twins = find_twins(mesh);
+  const auto loops = find_border_loops(mesh, twins);
+  if (!loops.empty())
+    fail_of_level("the surface is open", mesh.vertices[start_vertex(mesh, loops[0][0])],
+                  std::to_string(loops.size()) + (loops.size() == 1 ? " hole" : " holes"));
+}
+
+void require_no_crossings(const SurfaceMesh& mesh) {
+  const std::vector<FacePair> pairs = find_self_intersections(mesh);
+  if (!pairs.empty())
+    fail_of_level("the surface crosses itself", centre_of(mesh, pairs[0].face),
+                  std::to_string(pairs.size()) + " pairs of faces");
+}
+
+void require_sound(const SurfaceMesh& mesh, const SurfaceValidity& validity, bool may_be_open) {
+  if (!validity.manifold())
+    fail_of_level("the surface is not manifold", mesh.vertices[mesh.triangles[0][0]],
+                  std::to_string(validity.non_manifold_edges) + " edges of more than two faces, " +
+                      std::to_string(validity.non_manifold_vertices) + " vertices of several fans, " +
+                      std::to_string(validity.misoriented_edges) + " edges of faces that are turned differently");
+  if (!may_be_open) require_closed(mesh);
+  require_no_crossings(mesh);
+}
+
+void mend_crossings(SurfaceMesh& mesh, const RepairOptions& options, RepairResult& result, const Progress& progress) {
+  const double area = surface_area(mesh);
+  const IntersectionRemoval removal = remove_intersections(mesh, result, progress);
+  if (removal.remaining > 0 || removal.area_cut > most_cut_of_area * area)
+    fail_of_intersections(result, removal.area_cut / area);
+  if (result.count(RepairKind::Intersection) > 0) {
+    drop_flat_shells(mesh, options, result);
+    drop_shells_inside(mesh, options.holes == Holes::keep, result);
+  }
+  if (result.count(RepairKind::Intersection) + result.count(RepairKind::UnitedShell) > 0)
+    drop_debris(mesh, options.bodies, result);  // crossings may have parted pieces from the whole
+}
+
+// All rungs but the last.
+RepairResult climb(SurfaceMesh& mesh, const RepairOptions& options, const Progress& progress) {
   RepairResult result;
   const bool keep_holes = options.holes == Holes::keep;
-  check_input(mesh);
+  const bool gentle = options.level == RepairLevel::gentle;
   progress("repair", 0);
   for (const Vec3& p : drop_unused_vertices(mesh)) result.changes.push_back({RepairKind::UnusedVertex, p, 0});
   const SurfaceValidity validity = check_validity(mesh);
@@ -85,26 +134,41 @@ RepairResult repair(SurfaceMesh& mesh, const RepairOptions& options, const Progr
   }
   if (!sound || validity.components > 1) drop_debris(mesh, options.bodies, result);
   if (!sound && options.thickness) thicken_sheets(mesh, *options.thickness, result);
-  if (!sound && !keep_holes) {
+  if (!sound && !keep_holes && !gentle) {
     close_holes(mesh, {options.largest_hole_of_diagonal, options.fragment_of_area}, result, progress);
     make_manifold(mesh, result);
   }
+  if (gentle && !keep_holes) require_closed(mesh);
   mend_degenerate_faces(mesh, result);
   drop_flat_shells(mesh, options, result);
   orient_shells(mesh, keep_holes, result);
   progress("repair", 0.3);
-
-  const double area = surface_area(mesh);
-  const IntersectionRemoval removal = remove_intersections(mesh, result, progress);
-  if (removal.remaining > 0 || removal.area_cut > most_cut_of_area * area)
-    fail_of_intersections(result, removal.area_cut / area);
-  if (result.count(RepairKind::Intersection) > 0) {
-    drop_flat_shells(mesh, options, result);
-    drop_shells_inside(mesh, keep_holes, result);
-  }
-  if (result.count(RepairKind::Intersection) + result.count(RepairKind::UnitedShell) > 0)
-    drop_debris(mesh, options.bodies, result);  // crossings may have parted pieces from the whole
+  if (gentle)
+    require_no_crossings(mesh);
+  else
+    mend_crossings(mesh, options, result, progress);
   drop_unused_vertices(mesh);
+  return result;
+}
+
+}  // namespace
+
+RepairResult repair(SurfaceMesh& mesh, const RepairOptions& options, const Progress& progress) {
+  check_input(mesh);
+  RepairResult result;
+  if (options.level == RepairLevel::off) {
+    require_sound(mesh, check_validity(mesh), options.holes == Holes::keep);
+  } else if (options.level == RepairLevel::wrap) {
+    SurfaceMesh given = mesh;
+    try {
+      result = climb(mesh, options, progress);
+    } catch (const NotMeshable&) {
+      mesh = std::move(given);
+      wrap(mesh, result);
+    }
+  } else {
+    result = climb(mesh, options, progress);
+  }
   for (const Shell& shell : find_shells(mesh)) result.bodies += shell.volume > 0;
   progress("repair", 1);
   return result;

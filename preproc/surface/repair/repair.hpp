@@ -16,7 +16,17 @@ namespace scan2fea {
 // What becomes of the holes of a scan: a volume needs a closed surface; shells and parts of parts may be open.
 enum class Holes { close, keep };
 
+// How far a repair may go.
+enum class RepairLevel {
+  off,     // changes nothing: what is not sound is an error
+  gentle,  // joins, splits, pairs, turns and drops, and moves no vertex farther than a gap that it closes
+  full,    // also fills holes, and parts, unites or cuts out what crosses
+  wrap,    // also, where that fails, replaces the scan by a surface around it (wrap.hpp)
+};
+
 struct RepairOptions {
+  RepairLevel level = RepairLevel::full;
+
   Holes holes = Holes::close;
 
   // Holes whose border's bounding box has a diagonal up to this fraction of its component's are closed; a larger one is

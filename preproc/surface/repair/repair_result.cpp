@@ -8,7 +8,7 @@
 namespace scan2fea {
 namespace {
 
-constexpr NameTable<RepairKind, 19> names{{
+constexpr NameTable<RepairKind, 20> names{{
     {RepairKind::WeldedVertex, "welded vertex"},
     {RepairKind::SplitEdge, "split edge"},
     {RepairKind::UnusedVertex, "unused vertex"},
@@ -24,6 +24,7 @@ constexpr NameTable<RepairKind, 19> names{{
     {RepairKind::DroppedInside, "dropped inner piece"},
     {RepairKind::ThickenedSheet, "thickened sheet"},
     {RepairKind::ClosedHole, "closed hole"},
+    {RepairKind::Wrapped, "wrapped"},
     {RepairKind::PartedTouch, "parted touch"},
     {RepairKind::UnitedShell, "united shell"},
     {RepairKind::SmoothedFold, "smoothed fold"},
@@ -51,8 +52,16 @@ bool is_lost(RepairKind kind) {
 }
 
 bool is_made_up(RepairKind kind) {
-  return kind == RepairKind::ThickenedSheet || kind == RepairKind::ClosedHole || kind == RepairKind::NonManifoldFaces ||
-         kind == RepairKind::Intersection;
+  switch (kind) {
+    case RepairKind::NonManifoldFaces:
+    case RepairKind::ThickenedSheet:
+    case RepairKind::ClosedHole:
+    case RepairKind::Wrapped:
+    case RepairKind::Intersection:
+      return true;
+    default:
+      return false;
+  }
 }
 
 std::size_t RepairResult::count(RepairKind kind) const {

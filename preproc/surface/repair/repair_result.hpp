@@ -25,6 +25,7 @@ enum class RepairKind {
   DroppedInside,     // a piece that lay inside the solid after parts were joined or cut; size: its area
   ThickenedSheet,    // an open sheet made a solid (RepairOptions::thickness); size: the thickness
   ClosedHole,        // size: the diagonal of its border's bounding box
+  Wrapped,           // all of it, by a surface around it; size: the distance between them
   PartedTouch,       // a vertex, or a shell as it is, moved off what it touched; size: the distance moved
   UnitedShell,       // a solid that overlapped others, made one with them; size: its area
   SmoothedFold,      // a vertex smoothed because its faces crossed others; size: the distance moved

@@ -13,7 +13,7 @@ namespace {
 
 // Such that the planes of the vertex's faces move by 1.
 Vec3 direction_at(const SurfaceMesh& mesh, const VertexStars& stars, std::uint32_t v) {
-  constexpr double damping = 1e-3;  // along the plane, which its face says nothing of
+  constexpr double damping = 1e-6;  // along the plane, which its face says nothing of
   constexpr double farthest = 3;
   Eigen::Matrix3d planes = Eigen::Matrix3d::Zero();
   Vec3 sum = Vec3::Zero();
