@@ -2,7 +2,6 @@
 
 #include "preproc/mesh/companion_file.hpp"
 #include "preproc/mesh/huge_pages.hpp"
-#include "preproc/mesh/temporary_folder.hpp"
 
 #include <algorithm>
 #include <array>
@@ -15,6 +14,7 @@
 #include <spawn.h>
 #include <string>
 #include <string_view>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <system_error>
 #include <thread>
@@ -52,6 +52,28 @@ std::vector<char*> environment_of_worker(std::string& setting) {
   result.push_back(nullptr);
   return result;
 }
+
+// A file without a name, in memory, that children have open, too: whatever becomes of them, none is left behind.
+class NamelessFile {
+ public:
+  NamelessFile() : descriptor_(::memfd_create("scan2fea", 0)) {
+    if (descriptor_ < 0)
+      throw IoError({.what = "no file can be made in memory for TetGen",
+                     .where = {},
+                     .value = std::strerror(errno),
+                     .limit = {},
+                     .advice = "more memory, or more open files (ulimit -n)"});
+  }
+  ~NamelessFile() { ::close(descriptor_); }
+  NamelessFile(const NamelessFile&) = delete;
+  NamelessFile& operator=(const NamelessFile&) = delete;
+
+  // The same for this process and its children.
+  std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
+
+ private:
+  int descriptor_;
+};
 
 // A child that does not outlive this object.
 class Child {
@@ -138,8 +160,11 @@ int wait_for(Child& child, const TetgenLimits& limits, const Progress& progress)
     case TetgenStatus::wrong_input:
       throw failed("TetGen refused its input", {}, {}, "scan2fea check on the surface");
     case TetgenStatus::file_error:
-      throw failed("the TetGen worker could not read its input or write its output", {}, {},
-                   "free space in the temporary folder, or set TMPDIR to another");
+      throw IoError({.what = "the TetGen worker could not read its input or write its output",
+                     .where = {},
+                     .value = {},
+                     .limit = {},
+                     .advice = "more memory, or larger files (ulimit -f)"});
     default:
       break;
   }
@@ -152,12 +177,12 @@ int wait_for(Child& child, const TetgenLimits& limits, const Progress& progress)
 
 TetgenOutput run_tetgen(const TetgenInput& input, const TetgenLimits& limits, const Progress& progress) {
   const fs::path worker = limits.worker.value_or(companion_file(worker_name));
-  const TemporaryFolder folder;
-  const fs::path in = folder / "in", out = folder / "out";
-  write_exchange(input, in);
-  Child child(worker, {in.string(), out.string(), std::to_string(limits.memory_bytes.value_or(0))});
+  const NamelessFile in, out;
+  write_exchange(input, in.path());
+  Child child(worker,
+              {in.path(), out.path(), std::to_string(limits.memory_bytes.value_or(0)), std::to_string(::getpid())});
   if (const int status = wait_for(child, limits, progress); status != 0) report(status, limits);
-  return read_tetgen_output(out);
+  return read_tetgen_output(out.path());
 }
 
 }  // namespace scan2fea

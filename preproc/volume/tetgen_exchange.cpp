@@ -11,17 +11,15 @@ namespace {
 
 static_assert(sizeof(Vec3) == 3 * sizeof(double), "points are written as they lie in memory");
 
-IoError exchange_error(const char* what, const std::filesystem::path& file) {
-  return IoError({.what = what,
-                  .where = file.string(),
-                  .value = {},
-                  .limit = {},
-                  .advice = "free space in the temporary folder, or set TMPDIR to another"});
+// The file has no name that says anything to a user.
+IoError exchange_error(const char* what) {
+  return IoError(
+      {.what = what, .where = {}, .value = {}, .limit = {}, .advice = "more memory, or larger files (ulimit -f)"});
 }
 
 class Writer {
  public:
-  explicit Writer(const std::filesystem::path& file) : file_(file), stream_(file, std::ios::binary) {}
+  explicit Writer(const std::filesystem::path& file) : stream_(file, std::ios::binary) {}
 
   template <class Container>
   void array(const Container& items) {
@@ -34,33 +32,32 @@ class Writer {
 
   void finish() {
     stream_.close();
-    if (!stream_) throw exchange_error("cannot write", file_);
+    if (!stream_) throw exchange_error("not all could be written that is passed to or from TetGen");
   }
 
  private:
-  std::filesystem::path file_;
   std::ofstream stream_;
 };
 
 class Reader {
  public:
   explicit Reader(const std::filesystem::path& file)
-      : file_(file), stream_(file, std::ios::binary), bytes_(stream_ ? std::filesystem::file_size(file) : 0) {}
+      : stream_(file, std::ios::binary), bytes_(stream_ ? std::filesystem::file_size(file) : 0) {}
 
   template <class Container>
   void array(Container& items) {
     std::uint64_t size = 0;
     stream_.read(reinterpret_cast<char*>(&size), sizeof size);
     // A worker that was killed while it wrote leaves a short file: no allocation on its word.
-    if (!stream_ || size > bytes_ / sizeof(typename Container::value_type)) throw exchange_error("cannot read", file_);
+    if (!stream_ || size > bytes_ / sizeof(typename Container::value_type))
+      throw exchange_error("not all could be read that is passed to or from TetGen");
     items.resize(size);
     stream_.read(reinterpret_cast<char*>(items.data()),
                  static_cast<std::streamsize>(size * sizeof(typename Container::value_type)));
-    if (!stream_) throw exchange_error("cannot read", file_);
+    if (!stream_) throw exchange_error("not all could be read that is passed to or from TetGen");
   }
 
  private:
-  std::filesystem::path file_;
   std::ifstream stream_;
   std::uint64_t bytes_;
 };

@@ -1,4 +1,4 @@
-// scan2fea-tetgen INPUT OUTPUT MEMORY_BYTES: one call of TetGen in a process of its own.
+// scan2fea-tetgen INPUT OUTPUT MEMORY_BYTES PARENT: one call of TetGen in a process of its own.
 //
 // TetGen may crash, exit, throw an int, loop or ask for all memory, according to its input; here that hurts nobody. The
 // exit status tells what happened (TetgenStatus). The only file that includes tetgen.h.
@@ -10,9 +10,11 @@
 #include <dlfcn.h>
 #include <exception>
 #include <new>
+#include <string>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <typeinfo>
+#include <unistd.h>
 
 #define TETLIBRARY
 #include <tetgen.h>
@@ -125,9 +127,12 @@ extern "C" [[noreturn]] void __cxa_throw(void* thrown, void* type, void (*destro
 }
 
 int main(int argc, char** argv) {
-  if (argc != 4) return static_cast<int>(TetgenStatus::wrong_input);
-  // Whoever kills the command kills its worker too.
+  if (argc != 5) return static_cast<int>(TetgenStatus::wrong_input);
+  // Whoever kills the command kills its worker too, also where that was before this line.
   prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (std::to_string(getppid()) != argv[4]) leave(TetgenStatus::internal_error);
+  // What passes a limit on the size of files is an error like a full disk.
+  std::signal(SIGXFSZ, SIG_IGN);
   // No core files of a crash that the command reports.
   const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
