@@ -3,10 +3,8 @@
 #include "preproc/mesh/companion_file.hpp"
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/output_file.hpp"
-#include "preproc/mesh/temporary_folder.hpp"
 
 #include <dlfcn.h>
-#include <system_error>
 
 namespace scan2fea {
 namespace {
@@ -29,28 +27,13 @@ WriteByGmsh* load_writer() {
   return reinterpret_cast<WriteByGmsh*>(function);
 }
 
-// Another name of the file, ending in ".msh".
-fs::path link_for_gmsh(const fs::path& file, const TemporaryFolder& folder) {
-  fs::path link = folder / "mesh.msh";
-  std::error_code error;
-  fs::create_symlink(fs::absolute(file), link, error);
-  if (error)
-    throw IoError({.what = "cannot make a link to the output",
-                   .where = link.string(),
-                   .value = error.message(),
-                   .limit = {},
-                   .advice = "set TMPDIR to a folder that can hold symbolic links"});
-  return link;
-}
-
 }  // namespace
 
 void write_msh(const TetMesh& mesh, const std::filesystem::path& file, const MshOptions& options) {
   static WriteByGmsh* const write_by_gmsh = load_writer();
-  OutputFile output(file);
-  const TemporaryFolder folder;
+  OutputFile output(file);  // whose temporary name ends in ".msh", as Gmsh wants it
   std::string failure;
-  write_by_gmsh(mesh, link_for_gmsh(output.temporary_path(), folder), options.version, failure);
+  write_by_gmsh(mesh, output.temporary_path(), options.version, failure);
   if (!failure.empty())
     throw IoError(
         {.what = "Gmsh cannot write the file", .where = file.string(), .value = failure, .limit = {}, .advice = {}});

@@ -16,6 +16,7 @@ namespace scan2fea {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class Command : public ::testing::Test {
  protected:
@@ -186,6 +187,75 @@ TEST_F(Command, ExistingOutputNeedsForce) {
   EXPECT_EQ(contents(path("out.ply")), "precious");
   EXPECT_EQ(run_command(command + " --force").exit_code, 0);
   EXPECT_GT(read_surface(path("out.ply")).triangles.size(), 400U);
+}
+
+TEST_F(Command, ExistingReportsNeedForce) {
+  const std::string check = "check '" + scan_of_a_sphere() + "' --quiet ";
+  const std::string json = check + "--json '" + path("check.json") + "'";
+  const std::string report = check + "--report '" + path("a/report") + "'";
+  const auto expect_refused_without_force = [&](const std::string& command, const std::string& file) {
+    ASSERT_EQ(run_command(command).exit_code, 0);
+    write_text(file, "precious");
+    const auto again = run_command(command);
+    EXPECT_EQ(again.exit_code, 6);
+    EXPECT_THAT(again.standard_error, HasSubstr("--force"));
+    EXPECT_EQ(contents(file), "precious");
+    EXPECT_EQ(run_command(command + " --force").exit_code, 0);
+    EXPECT_NE(contents(file), "precious");
+  };
+  expect_refused_without_force(json, path("check.json"));
+  expect_refused_without_force(report, path("a/report/report.txt"));
+}
+
+TEST_F(Command, OutputsAreDifferentFilesAndNoInputs) {
+  const std::string scan = scan_of_a_sphere(), before = contents(scan);
+  std::filesystem::create_directory(path("folder"));
+  std::filesystem::create_symlink(scan, path("link.ply"));
+  const std::string surface = "surface '" + scan + "' --faces 500 --force ";
+  const auto expect_refused = [&](const std::string& command) {
+    const auto result = run_command(command);
+    EXPECT_EQ(result.exit_code, 2) << command;
+    EXPECT_THAT(last_line_of(result.standard_error), HasSubstr("try: another name"));
+  };
+  const std::string out = "-o '" + path("out.ply") + "' ";
+  expect_refused(surface + "-o '" + scan + "'");
+  expect_refused(surface + "-o '" + path("folder/../sphere.ply") + "'");
+  expect_refused(surface + "-o '" + path("link.ply") + "'");
+  expect_refused(surface + out + "--json '" + scan + "'");
+  expect_refused(surface + out + "--json '" + path("out.ply") + "'");
+  expect_refused(surface + out + "--features '" + path("out.ply") + "'");
+  expect_refused(surface + out + "--report '" + path("r") + "' --json '" + path("r/report.json") + "'");
+  expect_refused("check '" + scan + "' --force --json '" + scan + "'");
+  expect_refused("check '" + path("link.ply") + "' --force --reference '" + scan + "' --json '" + scan + "'");
+  expect_refused("convert '" + scan + "' --force -o '" + scan + "'");
+  EXPECT_EQ(contents(scan), before);
+  EXPECT_FALSE(std::filesystem::exists(path("out.ply")));
+}
+
+// Before any work: the scan is not even there.
+TEST_F(Command, OutputsThatCannotBeWrittenAreToldAtOnce) {
+  write_text(path("file"), "");
+  std::filesystem::create_directory(path("folder.ply"));
+  const std::string surface = "surface '" + path("absent.ply") + "' ", out = "-o '" + path("out.ply") + "' ";
+  for (const std::string& outputs :
+       {"-o '" + path("folder.ply") + "'", "-o '" + path("absent/out.ply") + "'", "-o '" + path("file/out.ply") + "'",
+        out + "--json /dev/full", out + "--json '" + path("absent/out.json") + "'",
+        out + "--features '" + path("absent/lines.obj") + "'", out + "--report '" + path("file") + "'",
+        out + "--report '" + path("file/a/b") + "'"}) {
+    const auto result = run_command(surface + outputs);
+    EXPECT_EQ(result.exit_code, 6) << outputs << result.standard_error;
+    EXPECT_THAT(result.standard_error, Not(HasSubstr("absent.ply")));
+    EXPECT_EQ(std::count(result.standard_error.begin(), result.standard_error.end(), '\n'), 1);
+  }
+}
+
+TEST_F(Command, AFailingStdoutLeavesNoMesh) {
+  const std::string surface = "surface '" + scan_of_a_sphere() + "' --faces 500 -o '" + path("out.ply") + "' ";
+  for (const std::string report : {"", "--json -", "--quiet --json -"}) {
+    const auto result = run_command(surface + report, "/dev/full");
+    EXPECT_EQ(result.exit_code, 6) << report;
+    EXPECT_FALSE(std::filesystem::exists(path("out.ply")));
+  }
 }
 
 TEST_F(Command, FailureLeavesAnExistingOutputAlone) {

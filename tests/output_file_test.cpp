@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 
@@ -68,9 +69,46 @@ TEST(OutputFile, TwoOfOneTargetDoNotMeet) {
 
 TEST(OutputFile, TemporaryKeepsFolderAndExtension) {
   const TemporaryFolder folder;
-  const OutputFile output(folder / "part.v2.msh");
+  OutputFile output(folder / "part.v2.MSH");
   EXPECT_EQ(output.temporary_path().extension(), ".msh");
   EXPECT_EQ(output.temporary_path().parent_path(), folder.path());
+}
+
+TEST(OutputFile, IsTakenAwayBySignalHandlersUntilItIsCommitted) {
+  const TemporaryFolder folder;
+  OutputFile lost(folder / "lost.msh"), kept(folder / "kept.msh");
+  EXPECT_TRUE(std::filesystem::exists(lost.temporary_path()));
+  kept.commit();
+  remove_unfinished_outputs();
+  EXPECT_FALSE(std::filesystem::exists(lost.temporary_path()));
+  EXPECT_EQ(files_in(folder), 1u);
+  EXPECT_THROW(lost.commit(), IoError);
+}
+
+TEST(OutputFile, IsNotSeenBeforeItIsCommitted) {
+  const TemporaryFolder folder;
+  OutputFile output(folder / "part.inp");
+  output.stream() << std::string(100'000, 'x') << std::flush;
+  // File systems that know no files without names show a temporary one.
+  const int nameless = ::open(folder.path().c_str(), O_TMPFILE | O_WRONLY, 0600);
+  EXPECT_EQ(files_in(folder), nameless >= 0 ? 0u : 1u);
+  output.commit();
+  EXPECT_EQ(contents(folder / "part.inp").size(), 100'000u);
+  EXPECT_EQ(files_in(folder), 1u);
+}
+
+TEST(OutputFile, MakesItsFolderWhenItIsCommitted) {
+  const TemporaryFolder folder;
+  OutputFile one(folder / "a/b/one.txt", OutputFile::Folder::is_made);
+  OutputFile other(folder / "a/b/other.txt", OutputFile::Folder::is_made);
+  one.stream() << "1";
+  one.finish();
+  EXPECT_FALSE(std::filesystem::exists(folder / "a"));
+  one.commit();
+  other.commit();
+  EXPECT_EQ(contents(folder / "a/b/one.txt"), "1");
+  EXPECT_TRUE(std::filesystem::exists(folder / "a/b/other.txt"));
+  EXPECT_EQ(files_in(folder), 1u);
 }
 
 TEST(OutputFile, TakesWhatAnotherWriterWroteAtItsPath) {

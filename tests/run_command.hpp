@@ -11,7 +11,8 @@ struct CommandResult {
   std::string standard_error;
 };
 
-// `arguments` is what a shell would be given after the command's name.
-CommandResult run_command(const std::string& arguments);
+// `arguments` is what a shell would be given after the command's name. What is written to stdout goes to the file, if
+// one is given.
+CommandResult run_command(const std::string& arguments, const std::string& standard_output = {});
 
 }  // namespace scan2fea

@@ -28,6 +28,9 @@ Loaded load(const std::filesystem::path& file) {
 
 int check(const CheckFlags& flags) {
   const std::vector<Gate> gates = parse_gates(flags.common);
+  std::vector<std::filesystem::path> inputs = inputs_of(flags.common);
+  if (flags.reference) inputs.push_back(*flags.reference);
+  require_writable(report_outputs(flags.common), inputs, flags.common.force);
   ProgressDisplay display(flags.common.quiet);
   const Loaded mesh = load(flags.common.input);
   display.line(describe_input(mesh.surface, flags.common));
@@ -39,7 +42,10 @@ int check(const CheckFlags& flags) {
                         .volume_mesh = mesh.volume_mesh ? &*mesh.volume_mesh : nullptr,
                         .stages = nullptr,
                         .repaired = nullptr};
-  return report_figures(subject, flags.common, gates, display) ? 0 : 1;
+  StagedOutputs outputs;
+  const bool all_pass = report_figures(subject, flags.common, gates, display, outputs);
+  outputs.commit();
+  return all_pass ? 0 : 1;
 }
 
 }  // namespace

@@ -12,17 +12,18 @@ namespace {
 
 struct ConvertFlags {
   std::filesystem::path input;
-  OutputFlag output;
+  std::filesystem::path output;
+  bool force = false;
   std::optional<std::string> unit;
   MshVersion msh_version = MshVersion::v4_1;
   bool quiet = false;
 };
 
 int convert(const ConvertFlags& flags) {
-  require_writable(flags.output.output, flags.output.force);
+  require_writable({{flags.output}}, {flags.input}, flags.force);
   ProgressDisplay display(flags.quiet);
   const bool volume_in = volume_format(flags.input).has_value();
-  const bool volume_out = volume_format(flags.output.output).has_value();
+  const bool volume_out = volume_format(flags.output).has_value();
   if (volume_out && !volume_in)
     throw WrongUsage({.what = "a surface holds no tetrahedra to write",
                       .where = flags.input.string(),
@@ -33,13 +34,13 @@ int convert(const ConvertFlags& flags) {
     const VolumeFileOptions options{.unit = flags.unit.value_or(""),
                                     .provenance = flags.input.filename().string(),
                                     .msh_version = flags.msh_version};
-    for (const std::string& warning : write_volume(read_volume(flags.input), flags.output.output, options).warnings)
+    for (const std::string& warning : write_volume(read_volume(flags.input), flags.output, options).warnings)
       display.line("warning: " + warning);
   } else if (volume_in) {
-    write_surface(boundary_surface(read_volume(flags.input)), flags.output.output);
-    display.line("the boundary was written; " + flags.output.output.string() + " holds no tetrahedra");
+    write_surface(boundary_surface(read_volume(flags.input)), flags.output);
+    display.line("the boundary was written; " + flags.output.string() + " holds no tetrahedra");
   } else {
-    write_surface(read_surface(flags.input), flags.output.output);
+    write_surface(read_surface(flags.input), flags.output);
   }
   return 0;
 }
@@ -52,6 +53,7 @@ SubCommand add_convert(CLI::App& root) {
       root.add_subcommand("convert", "Between all formats; a volume mesh into a surface gives its boundary");
   app->add_option("input", flags->input, "What to read")->required()->type_name("FILE");
   add_output_flag(*app, flags->output);
+  add_force_flag(*app, flags->force);
   app->add_option("--unit", flags->unit, "Length unit, recorded in what is written")
       ->check(CLI::IsMember({"um", "mm", "cm", "m", "in", "ft"}))
       ->type_name("UNIT");

@@ -1,12 +1,10 @@
 #include "preproc/command/figures.hpp"
 
-#include "preproc/command/output_files.hpp"
 #include "preproc/surface/repair/solid_volume.hpp"
 
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
-#include <iostream>
 
 namespace scan2fea::command {
 namespace {
@@ -72,18 +70,18 @@ std::vector<Gate> parse_gates(const CommonFlags& flags) {
 }
 
 bool report_figures(const Subject& subject, const CommonFlags& flags, const std::vector<Gate>& gates,
-                    ProgressDisplay& display) {
+                    ProgressDisplay& display, StagedOutputs& outputs) {
   Json report = measure(subject, flags);
   const std::vector<GateResult> results = evaluate_gates(gates, report);
   report["gates"] = scan2fea::to_json(results);
-  if (flags.json) write_json(report, *flags.json);
-  if (flags.report) write_report(report, to_table(report), *flags.report);
+  if (flags.json) outputs.add_json(report, *flags.json);
+  if (flags.report) outputs.add_report(report, to_table(report), *flags.report);
   // With the JSON on stdout the table goes where messages go.
   if (!flags.quiet) {
     if (flags.json == "-")
       display.line(to_table(report));
     else
-      std::cout << to_table(report) << std::flush;
+      write_to_stdout(to_table(report));
   }
   for (const GateResult& result : results)
     if (!result.pass) std::fprintf(stderr, "scan2fea: %s: %s\n", flags.input.c_str(), describe(result).c_str());

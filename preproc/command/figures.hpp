@@ -2,6 +2,7 @@
 #pragma once
 
 #include "preproc/command/flags.hpp"
+#include "preproc/command/output_files.hpp"
 #include "preproc/command/progress_display.hpp"
 #include "quality/gates.hpp"
 #include "quality/report.hpp"
@@ -22,9 +23,9 @@ struct Subject {
   const RepairResult* repaired = nullptr;
 };
 
-// Returns whether all gates pass. Writes --json and --report; says which gates failed.
+// Returns whether all gates pass. Stages --json and --report; says which gates failed.
 bool report_figures(const Subject& subject, const CommonFlags& flags, const std::vector<Gate>& gates,
-                    ProgressDisplay& display);
+                    ProgressDisplay& display, StagedOutputs& outputs);
 
 // "scan.ply: 48485 vertices, 96966 triangles, 12.3 x 4.5 x 6.7 mm": a wrong unit is the commonest mistake.
 std::string describe_input(const SurfaceMesh& mesh, const CommonFlags& flags);

@@ -108,14 +108,18 @@ void add_common_flags(CLI::App& command, CommonFlags& flags) {
       ->capture_default_str()
       ->type_name("N");
   command.add_option("--config", flags.config, "Options from a TOML file, under the flags' names")->type_name("FILE");
+  add_force_flag(command, flags.force);
   command.add_flag("--quiet", flags.quiet, "No messages but errors");
 }
 
-void add_output_flag(CLI::App& command, OutputFlag& flag) {
-  command.add_option("-o,--output", flag.output, "What to write; its extension tells the format")
+void add_output_flag(CLI::App& command, std::filesystem::path& output) {
+  command.add_option("-o,--output", output, "What to write; its extension tells the format")
       ->required()
       ->type_name("FILE");
-  command.add_flag("--force", flag.force, "Overwrite an existing output");
+}
+
+void add_force_flag(CLI::App& command, bool& force) {
+  command.add_flag("--force", force, "Overwrite outputs that exist, reports too");
 }
 
 void add_size_flags(CLI::App& command, SizeFlags& flags) {

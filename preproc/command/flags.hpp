@@ -25,6 +25,7 @@ struct CommonFlags {
   std::optional<std::string> unit;
   std::uint64_t seed = 1;  // of the random points by which distances are measured
   int threads = 0;         // 0: all
+  bool force = false;      // overwrite existing outputs
   bool quiet = false;
 };
 
@@ -47,11 +48,6 @@ struct SizeFlags {
   TargetSize target() const;  // with no flag the library's default
 };
 
-struct OutputFlag {
-  std::filesystem::path output;
-  bool force = false;
-};
-
 // Feature edges in and out, see feature_file.hpp.
 struct FeatureFileFlags {
   std::optional<std::filesystem::path> write;
@@ -59,7 +55,8 @@ struct FeatureFileFlags {
 };
 
 void add_common_flags(CLI::App& command, CommonFlags& flags);
-void add_output_flag(CLI::App& command, OutputFlag& flag);
+void add_output_flag(CLI::App& command, std::filesystem::path& output);
+void add_force_flag(CLI::App& command, bool& force);  // of all that take no common flags
 void add_size_flags(CLI::App& command, SizeFlags& flags);
 void add_repair_flags(CLI::App& command, RepairOptions& options);
 void add_enrich_flags(CLI::App& command, EnrichOptions& options);

@@ -1,6 +1,6 @@
 // scan2fea: from a scanned surface to a finite-element mesh.
 #include "preproc/command/configuration.hpp"
-#include "preproc/command/progress_display.hpp"
+#include "preproc/command/early_end.hpp"
 #include "preproc/command/restart.hpp"
 #include "preproc/command/sub_commands.hpp"
 #include "preproc/mesh/error.hpp"
@@ -39,7 +39,6 @@ int run_command(int argc, char** argv) {
     std::fprintf(stderr, "scan2fea: %s; try: scan2fea --help\n", e.what());
     return wrong_usage;
   }
-  catch_interrupts();
   for (const SubCommand& command : commands) {
     if (!command.app->parsed()) continue;
     const CLI::Option* config = command.app->get_option_no_throw("--config");
@@ -59,6 +58,7 @@ int run_command(int argc, char** argv) {
 // NOLINTNEXTLINE(bugprone-exception-escape): what is caught nowhere is a bug, and ends the process.
 int main(int argc, char** argv) {
   scan2fea::command::restart_with_huge_pages(argv);
+  scan2fea::command::end_on_interrupts();
   try {
     return scan2fea::command::run_command(argc, argv);
   } catch (const scan2fea::Error& e) {

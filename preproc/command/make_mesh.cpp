@@ -1,6 +1,7 @@
 #include "preproc/command/make_mesh.hpp"
 
 #include "export/formats.hpp"
+#include "preproc/command/early_end.hpp"
 #include "preproc/command/figures.hpp"
 #include "preproc/command/output_files.hpp"
 #include "preproc/mesh/coordinate_step.hpp"
@@ -49,7 +50,7 @@ void warn_of_coarse_coordinates(const SurfaceMesh& scan, const std::string& inpu
 }
 
 void require_known_format(const MakeMeshJob& job) {
-  const std::filesystem::path& output = job.output.output;
+  const std::filesystem::path& output = job.output;
   const bool known = job.pipeline.tetrahedralize ? volume_format(output).has_value() : is_surface_file(output);
   if (!known)
     throw WrongUsage(
@@ -58,6 +59,15 @@ void require_known_format(const MakeMeshJob& job) {
          .value = output.extension().string(),
          .limit = {},
          .advice = std::string(job.pipeline.tetrahedralize ? known_volume_formats() : known_surface_formats())});
+}
+
+void require_writable_outputs(const MakeMeshJob& job) {
+  std::vector<OutputPath> outputs = report_outputs(job.common);
+  outputs.push_back({job.output});
+  if (job.features.write) outputs.push_back({*job.features.write});
+  std::vector<std::filesystem::path> inputs = inputs_of(job.common);
+  if (job.features.read) inputs.push_back(*job.features.read);
+  require_writable(outputs, inputs, job.common.force);
 }
 
 }  // namespace
@@ -76,8 +86,7 @@ void add_surface_flags(CLI::App& command, MakeMeshJob& job) {
 
 int make_mesh(MakeMeshJob job) {
   require_known_format(job);
-  require_writable(job.output.output, job.output.force);
-  if (job.features.write) require_writable(*job.features.write, job.output.force);
+  require_writable_outputs(job);
   const std::vector<Gate> gates = parse_gates(job.common);
 
   ProgressDisplay display(job.common.quiet);
@@ -93,6 +102,7 @@ int make_mesh(MakeMeshJob job) {
     std::fprintf(stderr, "scan2fea: warning: %s: %s; a solver may refuse it\n", job.common.input.c_str(),
                  place.describe().c_str());
 
+  StagedOutputs outputs;
   const bool figures_wanted = !job.common.quiet || job.common.json || job.common.report || !gates.empty();
   if (figures_wanted) {
     // As `check` will find it in the file.
@@ -103,18 +113,23 @@ int make_mesh(MakeMeshJob job) {
                           .volume_mesh = result.volume_mesh ? &*result.volume_mesh : nullptr,
                           .stages = &result.stages,
                           .repaired = &result.repaired};
-    if (!report_figures(subject, job.common, gates, display)) return 1;
+    if (!report_figures(subject, job.common, gates, display, outputs)) {
+      outputs.commit();
+      return 1;
+    }
   }
-  if (job.features.write) write_feature_lines(result.features, *job.features.write);
+  if (job.features.write) outputs.add(*job.features.write, text_of(result.features));
   if (result.volume_mesh) {
     const VolumeFileOptions options{.unit = job.common.unit.value_or(""),
                                     .provenance = job.common.input.filename().string(),
                                     .msh_version = job.msh_version};
-    for (const std::string& warning : write_volume(*result.volume_mesh, job.output.output, options).warnings)
+    for (const std::string& warning : write_volume(*result.volume_mesh, job.output, options).warnings)
       display.line("warning: " + warning);
   } else {
-    write_surface(result.surface, job.output.output);
+    write_surface(result.surface, job.output);
   }
+  outputs.commit();
+  ends_by_itself_now();
   return 0;
 }
 

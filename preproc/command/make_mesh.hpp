@@ -7,7 +7,7 @@ namespace scan2fea::command {
 
 struct MakeMeshJob {
   CommonFlags common;
-  OutputFlag output;
+  std::filesystem::path output;
   SizeFlags size;
   FeatureFileFlags features;
   PipelineOptions pipeline;

@@ -1,64 +1,114 @@
 #include "preproc/command/output_files.hpp"
 
 #include "preproc/mesh/error.hpp"
-#include "preproc/mesh/output_file.hpp"
 
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <iostream>
+#include <unistd.h>
 
 namespace scan2fea::command {
 namespace {
 
-void write_text(const std::string& text, const std::filesystem::path& file) {
-  OutputFile out(file);
-  out.stream() << text;
-  out.commit();
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(std::string what, const fs::path& where, std::string value, std::string advice) {
+  throw IoError({std::move(what), where.string(), std::move(value), {}, std::move(advice)});
 }
+
+bool are_same(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  return fs::weakly_canonical(a, error) == fs::weakly_canonical(b, error) || fs::equivalent(a, b, error);
+}
+
+// The folder that a new file or folder of this name would be made in, or the one that a folder above it would.
+fs::path existing_folder_above(const fs::path& file) {
+  std::error_code error;
+  fs::path folder = fs::absolute(file, error).parent_path();
+  while (!fs::exists(folder, error) && folder.has_relative_path()) folder = folder.parent_path();
+  return folder;
+}
+
+void require_writable(const OutputPath& output, bool force) {
+  const fs::path& file = output.file;
+  std::error_code error;
+  const auto status = fs::status(file, error);
+  if (fs::is_directory(status)) fail("the output is a folder", file, {}, "a file in it");
+  if (fs::exists(status) && !fs::is_regular_file(status))
+    fail("the output is not a regular file", file, {}, "another name");
+  if (fs::exists(status) && !force) fail("the output exists already", file, {}, "--force, or another name");
+  const fs::path parent = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  if (!output.makes_folder && !fs::is_directory(parent, error))
+    fail("the output's folder does not exist", parent, {}, "mkdir -p");
+  const fs::path folder = existing_folder_above(fs::exists(status) ? fs::canonical(file, error) : file);
+  if (!fs::is_directory(folder, error)) fail("the output's folder is a file", folder, {}, "another folder");
+  if (::access(folder.c_str(), W_OK | X_OK) != 0)
+    fail("the output's folder cannot be written", folder, std::strerror(errno), "another folder");
+}
+
+std::string text_of(const nlohmann::json& report) {
+  return report.dump(2) + "\n";
+}
+
+constexpr const char *report_json = "report.json", *report_text = "report.txt";
 
 }  // namespace
 
-void require_writable(const std::filesystem::path& file, bool force) {
-  std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  if (std::filesystem::is_directory(status))
-    throw IoError(
-        {.what = "the output is a folder", .where = file.string(), .value = {}, .limit = {}, .advice = "a file in it"});
-  if (std::filesystem::exists(status) && !force)
-    throw IoError({.what = "the output exists already",
-                   .where = file.string(),
-                   .value = {},
-                   .limit = {},
-                   .advice = "--force, or another name"});
-  const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
-  if (!std::filesystem::is_directory(folder, error))
-    throw IoError({.what = "the output's folder does not exist",
-                   .where = folder.string(),
-                   .value = {},
-                   .limit = {},
-                   .advice = "mkdir -p"});
+std::vector<fs::path> inputs_of(const CommonFlags& flags) {
+  std::vector<fs::path> inputs{flags.input};
+  if (flags.config) inputs.push_back(*flags.config);
+  return inputs;
 }
 
-void write_json(const nlohmann::json& report, const std::filesystem::path& file) {
-  const std::string text = report.dump(2) + "\n";
-  if (file == "-") {
-    std::cout << text << std::flush;
-    if (!std::cout)
-      throw IoError({.what = "cannot write to stdout", .where = {}, .value = {}, .limit = {}, .advice = {}});
-  } else {
-    write_text(text, file);
+std::vector<OutputPath> report_outputs(const CommonFlags& flags) {
+  std::vector<OutputPath> outputs;
+  if (flags.json && *flags.json != "-") outputs.push_back({*flags.json});
+  if (flags.report)
+    for (const char* name : {report_json, report_text}) outputs.push_back({*flags.report / name, true});
+  return outputs;
+}
+
+void require_writable(const std::vector<OutputPath>& outputs, const std::vector<fs::path>& inputs, bool force) {
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    const auto is_it = [&](const fs::path& other) { return are_same(outputs[i].file, other); };
+    const auto is_this = [&](const OutputPath& other) { return is_it(other.file); };
+    const bool is_input = std::any_of(inputs.begin(), inputs.end(), is_it);
+    if (is_input || std::any_of(outputs.begin(), outputs.begin() + static_cast<std::ptrdiff_t>(i), is_this))
+      throw WrongUsage({.what = is_input ? "the output is an input" : "two outputs are the same file",
+                        .where = outputs[i].file.string(),
+                        .value = {},
+                        .limit = {},
+                        .advice = "another name"});
   }
+  for (const OutputPath& output : outputs) require_writable(output, force);
 }
 
-void write_report(const nlohmann::json& report, const std::string& text, const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error)
-    throw IoError({.what = "cannot make the report's folder",
-                   .where = folder.string(),
-                   .value = error.message(),
-                   .limit = {},
-                   .advice = "another folder"});
-  write_json(report, folder / "report.json");
-  write_text(text, folder / "report.txt");
+void write_to_stdout(const std::string& text) {
+  std::cout << text << std::flush;
+  if (!std::cout) fail("cannot write to stdout", {}, {}, {});
+}
+
+void StagedOutputs::add(const fs::path& file, const std::string& text, OutputFile::Folder folder) {
+  files_.push_back(std::make_unique<OutputFile>(file, folder));
+  files_.back()->stream() << text;
+  files_.back()->finish();
+}
+
+void StagedOutputs::add_json(const nlohmann::json& report, const fs::path& file) {
+  if (file == "-")
+    write_to_stdout(text_of(report));
+  else
+    add(file, text_of(report));
+}
+
+void StagedOutputs::add_report(const nlohmann::json& report, const std::string& text, const fs::path& folder) {
+  add(folder / report_json, text_of(report), OutputFile::Folder::is_made);
+  add(folder / report_text, text, OutputFile::Folder::is_made);
+}
+
+void StagedOutputs::commit() {
+  for (const auto& file : files_) file->commit();
 }
 
 }  // namespace scan2fea::command

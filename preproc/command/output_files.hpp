@@ -1,21 +1,50 @@
-// What the command writes besides its mesh, and what it refuses to overwrite.
+// What the command writes: checked before any work is done, and put in place all at once.
 #pragma once
+
+#include "preproc/command/flags.hpp"
+#include "preproc/mesh/output_file.hpp"
 
 #include <nlohmann/json.hpp>
 
 #include <filesystem>
+#include <memory>
 #include <string>
+#include <vector>
 
 namespace scan2fea::command {
 
-// Throws IoError, before any work is done, where `file` exists and `force` is off, is a folder, or lies in a folder
-// that does not exist.
-void require_writable(const std::filesystem::path& file, bool force);
+struct OutputPath {
+  std::filesystem::path file;
+  bool makes_folder = false;  // where that is missing
+};
 
-// To the file, or to stdout where it is "-". Existing JSON is replaced: it is a report, not somebody's work.
-void write_json(const nlohmann::json& report, const std::filesystem::path& file);
+// That it reads whatever the sub-command.
+std::vector<std::filesystem::path> inputs_of(const CommonFlags& flags);
 
-// DIR/report.json and DIR/report.txt; the folder is made where it is missing.
-void write_report(const nlohmann::json& report, const std::string& text, const std::filesystem::path& folder);
+// Of --json, unless that is stdout, and --report.
+std::vector<OutputPath> report_outputs(const CommonFlags& flags);
+
+// Throws IoError where an output exists and `force` is off, is no regular file, or cannot be made in its folder; and
+// WrongUsage where it is an input, or the same file as another output.
+void require_writable(const std::vector<OutputPath>& outputs, const std::vector<std::filesystem::path>& inputs,
+                      bool force);
+
+// Throws IoError where not all could be written.
+void write_to_stdout(const std::string& text);
+
+// Texts that are written, so that a full disk is known of, but not in place before `commit`.
+class StagedOutputs {
+ public:
+  void add(const std::filesystem::path& file, const std::string& text,
+           OutputFile::Folder folder = OutputFile::Folder::exists);
+  // To stdout, at once, where the file is "-".
+  void add_json(const nlohmann::json& report, const std::filesystem::path& file);
+  // The folder is made where it is missing.
+  void add_report(const nlohmann::json& report, const std::string& text, const std::filesystem::path& folder);
+  void commit();
+
+ private:
+  std::vector<std::unique_ptr<OutputFile>> files_;
+};
 
 }  // namespace scan2fea::command

@@ -1,31 +1,12 @@
 #include "preproc/command/progress_display.hpp"
 
 #include <algorithm>
-#include <atomic>
-#include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <unistd.h>
 
 namespace scan2fea::command {
-namespace {
-
-std::atomic<bool> interrupted{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch lock-free atomics only");
-
-void on_interrupt(int) {
-  interrupted = true;
-}
-
-}  // namespace
-
-void catch_interrupts() {
-  struct sigaction action {};
-  action.sa_handler = on_interrupt;
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-}
 
 ProgressDisplay::ProgressDisplay(bool quiet)
     : quiet_(quiet),
@@ -37,7 +18,10 @@ ProgressDisplay::~ProgressDisplay() {
 }
 
 Progress ProgressDisplay::progress() {
-  return Progress([this](std::string_view stage, double fraction) { return update(stage, fraction); });
+  return Progress([this](std::string_view stage, double fraction) {
+    update(stage, fraction);
+    return true;
+  });
 }
 
 void ProgressDisplay::line(const std::string& text) {
@@ -46,11 +30,10 @@ void ProgressDisplay::line(const std::string& text) {
   std::fprintf(stderr, "%s\n", text.c_str());
 }
 
-bool ProgressDisplay::update(std::string_view stage, double fraction) {
-  if (interrupted) return false;
-  if (quiet_ || !terminal_) return true;
+void ProgressDisplay::update(std::string_view stage, double fraction) {
+  if (quiet_ || !terminal_) return;
   const auto now = std::chrono::steady_clock::now();
-  if (bar_shown_ && now - last_drawn_ < std::chrono::milliseconds(50)) return true;
+  if (bar_shown_ && now - last_drawn_ < std::chrono::milliseconds(50)) return;
   last_drawn_ = now;
   bar_shown_ = true;
   constexpr int width = 30;  // beside the stage's name it leaves a terminal of 80 columns some room
@@ -59,7 +42,6 @@ bool ProgressDisplay::update(std::string_view stage, double fraction) {
   std::fprintf(stderr, "\r\033[K%-16.*s [%-*s] %3.0f %%", static_cast<int>(stage.size()), stage.data(), width,
                filled.c_str(), 100 * clamped);
   std::fflush(stderr);
-  return true;
 }
 
 void ProgressDisplay::clear() {

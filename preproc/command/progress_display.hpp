@@ -8,8 +8,7 @@
 
 namespace scan2fea::command {
 
-// Draws on stderr. Also the place where an interrupt (Ctrl-C) reaches the algorithms: `callback` returns false once one
-// has arrived, which makes them throw Cancelled and unwind, so that temporary files and child processes go too.
+// Draws on stderr.
 class ProgressDisplay {
  public:
   explicit ProgressDisplay(bool quiet);
@@ -23,7 +22,7 @@ class ProgressDisplay {
   void line(const std::string& text);
 
  private:
-  bool update(std::string_view stage, double fraction);
+  void update(std::string_view stage, double fraction);
   void clear();
 
   bool quiet_;
@@ -31,8 +30,5 @@ class ProgressDisplay {
   bool bar_shown_ = false;
   std::chrono::steady_clock::time_point last_drawn_;
 };
-
-// From here on the first interrupt asks to stop; a second one kills the process as usual.
-void catch_interrupts();
 
 }  // namespace scan2fea::command

@@ -6,27 +6,44 @@
 
 namespace scan2fea {
 
-// Writes beside the target under a temporary name and renames on `commit`, so that no reader sees a partial file and a
-// failure leaves an existing target as it was. The destructor removes what was not committed.
+// Writes into a file without a name and gives it that of the target on `commit`, so that no reader sees a partial file,
+// and a failure leaves an existing target as it was and nothing beside it. So does the end of the process, however it
+// comes; but where the file system knows no files without names, or `temporary_path` was asked for, only if the
+// destructor runs or `remove_unfinished_outputs` is called.
 class OutputFile {
  public:
-  // Throws IoError if the folder does not exist or cannot be written.
-  explicit OutputFile(std::filesystem::path target);
+  enum class Folder {
+    exists,
+    is_made,  // by `commit`, where it is missing, with all above it
+  };
+
+  // Throws IoError if the folder does not exist (or, if it may be made, the nearest one above it) or cannot be written.
+  explicit OutputFile(std::filesystem::path target, Folder folder = Folder::exists);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
   std::ofstream& stream() { return stream_; }
-  // For writers that want a path of their own (the Gmsh SDK); it has the target's extension.
-  const std::filesystem::path& temporary_path() const { return temporary_; }
+  // For writers that want a path of their own (the Gmsh SDK): it has the target's extension, in lower case.
+  const std::filesystem::path& temporary_path();
 
-  // Flushes, checks that all was written (IoError on a full disk), and renames.
+  // Flushes and checks that all was written (IoError on a full disk); done by `commit`, too.
+  void finish();
+  // The target is the new file.
   void commit();
 
  private:
+  void give_name();
+
   std::filesystem::path target_;
-  std::filesystem::path temporary_;
+  std::filesystem::path folder_;  // in which it lies until then: the target's, or one above
+  int descriptor_;
+  std::filesystem::path temporary_;  // empty while the file has no name
   std::ofstream stream_;
 };
+
+// For signal handlers that end the process: takes away what has a name already and was not committed. Not while another
+// thread makes or commits outputs.
+void remove_unfinished_outputs() noexcept;
 
 }  // namespace scan2fea

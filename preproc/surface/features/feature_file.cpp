@@ -48,7 +48,7 @@ FeatureLines lines_of(const SurfaceMesh& mesh, const std::vector<FeatureEdge>& e
   return lines;
 }
 
-void write_feature_lines(const FeatureLines& lines, const std::filesystem::path& file) {
+std::string text_of(const FeatureLines& lines) {
   std::string text = "# feature edges, written by scan2fea\n";
   for (const Vec3& p : lines.points) {
     text += 'v';
@@ -60,6 +60,11 @@ void write_feature_lines(const FeatureLines& lines, const std::filesystem::path&
     for (const std::uint32_t point : segment) append(text, std::uint64_t{point} + 1);
     text += '\n';
   }
+  return text;
+}
+
+void write_feature_lines(const FeatureLines& lines, const std::filesystem::path& file) {
+  const std::string text = text_of(lines);
   OutputFile output(file);
   output.stream().write(text.data(), static_cast<std::streamsize>(text.size()));
   output.commit();

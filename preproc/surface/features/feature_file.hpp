@@ -5,6 +5,7 @@
 #include "preproc/surface/kernel/adjacency.hpp"
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace scan2fea {
@@ -18,7 +19,10 @@ struct FeatureLines {
 // The places of edges of a mesh. Points are those that an edge uses, in the mesh's order.
 FeatureLines lines_of(const SurfaceMesh& mesh, const std::vector<FeatureEdge>& edges);
 
-// Numbers round-trip. Throws IoError; a file that stood there before is then untouched.
+// The text of such a file. Numbers round-trip.
+std::string text_of(const FeatureLines& lines);
+
+// Throws IoError; a file that stood there before is then untouched.
 void write_feature_lines(const FeatureLines& lines, const std::filesystem::path& file);
 
 // `l` lines of two points or more; faces and all else are passed over. A file without lines gives none: that is how to

@@ -1,0 +1,85 @@
+#include "preproc/command/early_end.hpp"
+
+#include "preproc/mesh/output_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <pthread.h>
+#include <string_view>
+#include <sys/time.h>
+#include <unistd.h>
+
+namespace scan2fea::command {
+namespace {
+
+constexpr int interrupted = 130, out_of_time = 4;
+
+// What a signal handler looks at.
+pthread_t main_thread;
+std::atomic<bool> is_done{false};
+bool is_terminal = false;
+std::array<char, 1024> line_when_out_of_time{};
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch lock-free atomics only");
+
+void say(std::string_view text) {
+  [[maybe_unused]] const ssize_t ignored = ::write(STDERR_FILENO, text.data(), text.size());
+}
+
+// Only in the main thread, which is the one that gives names to outputs, is nobody giving one meanwhile.
+void end(int signal) {
+  if (!pthread_equal(pthread_self(), main_thread)) {
+    pthread_kill(main_thread, signal);
+    return;
+  }
+  if (is_done) return;
+  remove_unfinished_outputs();
+  if (is_terminal) say("\r\033[K");  // the progress bar
+  say(signal == SIGALRM ? line_when_out_of_time.data() : "scan2fea: interrupted\n");
+  ::_exit(signal == SIGALRM ? out_of_time : interrupted);
+}
+
+void call_end_on(int signal) {
+  struct sigaction action {};
+  action.sa_handler = end;
+  action.sa_flags = SA_RESTART;
+  sigfillset(&action.sa_mask);
+  sigaction(signal, &action, nullptr);
+}
+
+bool is_ignored(int signal) {
+  struct sigaction action {};
+  return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
+}  // namespace
+
+void end_on_interrupts() {
+  main_thread = pthread_self();
+  is_terminal = isatty(STDERR_FILENO) != 0;
+  call_end_on(SIGINT);
+  call_end_on(SIGTERM);
+  if (!is_ignored(SIGHUP)) call_end_on(SIGHUP);  // as nohup asks for
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+}
+
+void end_after(std::chrono::duration<double> time, const std::string& line) {
+  const std::size_t length = std::min(line.size(), line_when_out_of_time.size() - 2);
+  std::copy_n(line.begin(), length, line_when_out_of_time.begin());
+  line_when_out_of_time[length] = '\n';
+  call_end_on(SIGALRM);
+  const auto microseconds = std::max<long>(1, std::chrono::duration_cast<std::chrono::microseconds>(time).count());
+  constexpr long a_second = 1'000'000;
+  const itimerval timer{.it_interval = {}, .it_value = {microseconds / a_second, microseconds % a_second}};
+  setitimer(ITIMER_REAL, &timer, nullptr);
+}
+
+void ends_by_itself_now() {
+  is_done = true;
+}
+
+}  // namespace scan2fea::command
