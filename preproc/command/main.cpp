@@ -19,7 +19,7 @@ namespace scan2fea::command {
 namespace {
 
 constexpr int wrong_usage = 2;
-constexpr int out_of_memory = 4;
+constexpr int no_mesh = 4;
 
 int run_command(int argc, char** argv) {
   CLI::App root("From a scanned surface to a mesh that a finite-element solver accepts.", "scan2fea");
@@ -55,7 +55,6 @@ int run_command(int argc, char** argv) {
 }  // namespace
 }  // namespace scan2fea::command
 
-// NOLINTNEXTLINE(bugprone-exception-escape): what is caught nowhere is a bug, and ends the process.
 int main(int argc, char** argv) {
   scan2fea::command::restart_with_huge_pages(argv);
   scan2fea::command::end_on_interrupts();
@@ -66,6 +65,9 @@ int main(int argc, char** argv) {
     return e.exit_code();
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr, "scan2fea: out of memory; try: a larger --edge-length, or fewer --faces\n");
-    return scan2fea::command::out_of_memory;
+    return scan2fea::command::no_mesh;
+  } catch (const std::exception& e) {  // of a library: no thread can be started, say
+    std::fprintf(stderr, "scan2fea: no mesh could be made: %s; try: more memory, or --threads 1\n", e.what());
+    return scan2fea::command::no_mesh;
   }
 }

@@ -7,6 +7,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <exception>
 #include <utility>
 
 namespace scan2fea {
@@ -52,13 +53,25 @@ std::vector<PatchPlace> PatchMender::mend(std::vector<PatchPlace> places, int ri
         (goal.most_vertices - std::min(goal.most_vertices, changes_.inserted - inserted_before)) / count;
     std::vector<PatchOutcome> outcomes(count);
     // The whole scan: cut along its creases, it has no side beyond them that a face next to one could agree with.
-    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+    const auto mend_one = [&](std::size_t i) {
       RefinementPatch& patch = batch.patches[i];
       const std::vector<std::uint32_t> around = faces_around(patch);
       outcomes[i] = how == Mending::improve
                         ? patch.improve(mesh_, around, scan_.whole, scan_faces[i], net_, part)
                         : patch.shorten(mesh_, around, scan_.whole, scan_faces[i], net_, part, batch.places[i].shorter);
+    };
+    // An exception (no memory is left) would cancel the loops that other patches are in, which then would go on with
+    // half of their results.
+    std::vector<std::exception_ptr> failed(count);
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+      try {
+        mend_one(i);
+      } catch (...) {
+        failed[i] = std::current_exception();
+      }
     });
+    for (const std::exception_ptr& failure : failed)
+      if (failure) std::rethrow_exception(failure);
     for (std::size_t i = 0; i < count; ++i) {
       if (!outcomes[i].reached) left.push_back(std::move(batch.places[i]));
       if (outcomes[i].improved) write(batch.patches[i], scan_faces[i]);
