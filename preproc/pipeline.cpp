@@ -168,7 +168,6 @@ void describe(const TetrahedralizeResult& result, StageRecord& record) {
                     {"surface_allows_scaled_jacobian", result.bound.scaled_jacobian}};
   record.remarks = {"the surface bounds the dihedral angle at " + coordinates(result.bound.min_dihedral_at),
                     "and the scaled Jacobian at " + coordinates(result.bound.scaled_jacobian_at)};
-  if (result.optimised.stopped_by_time) record.remarks.emplace_back("the time limit ended the optimisation early");
 }
 
 // What was gained, and the same figures of the mesh that stands now as of the first.
@@ -207,6 +206,18 @@ std::vector<WeakPlace> checked_for_solvers(const SurfaceMesh& surface, const Tet
   return places;
 }
 
+// The middle of what is left.
+Progress in_half_of_the_time(const Progress& progress) {
+  const Progress::Clock::time_point now = Progress::Clock::now();
+  return progress.until(progress.end(), now + (progress.end() - now) / 2);
+}
+
+void note_left_out(const Progress& stage, const char* what, StageRecord& record, PipelineResult& result) {
+  if (!stage.ran_short()) return;
+  result.left_out.emplace_back(what);
+  record.remarks.push_back("the time limit left out " + result.left_out.back());
+}
+
 }  // namespace
 
 PipelineResult run_pipeline(SurfaceMesh scan, const PipelineOptions& options, const Progress& progress,
@@ -236,8 +247,10 @@ PipelineResult run_pipeline(SurfaceMesh scan, const PipelineOptions& options, co
   if (options.simplify)
     log.run("simplify", [&](StageRecord& record) {
       search.emplace(dense, simplification);
-      made.simplified = search->run(made.surface, progress);
+      const Progress in_time = options.tetrahedralize ? in_half_of_the_time(progress) : progress.until(progress.end());
+      made.simplified = search->run(made.surface, in_time);
       describe(made.simplified, simplification.size, record);
+      note_left_out(in_time, "better edge lengths and places of the surface", record, result);
       if (simplification.given_features && simplification.given_features->segments.empty())
         record.remarks.emplace_back("the file of features has no lines: no edges are kept");
     });
@@ -247,14 +260,17 @@ PipelineResult run_pipeline(SurfaceMesh scan, const PipelineOptions& options, co
     TetrahedralizeOptions tetrahedralization = *options.tetrahedralize;
     if (simplification.limits.elements_across) need_nodes_in_walls(tetrahedralization);
     log.run("tetrahedralize", [&](StageRecord& record) {
-      made.filled = tetrahedralize(made.surface, tetrahedralization, progress);
+      const Progress in_time = progress.until(progress.end());
+      made.filled = tetrahedralize(made.surface, tetrahedralization, in_time);
       describe(made.filled, record);
+      note_left_out(in_time, "better tetrahedra", record, result);
     });
-    if (options.simplify && worth_renewing(simplification, tetrahedralization, made))
+    if (options.simplify && worth_renewing(simplification, made))
       log.run("renewal", [&](StageRecord& record) {
-        RenewalResult renewal =
-            renew_where_poor(*search, simplification, tetrahedralization, std::move(made), progress);
+        const Progress in_time = progress.until(progress.end());
+        RenewalResult renewal = renew_where_poor(*search, simplification, tetrahedralization, std::move(made), in_time);
         describe(renewal, record);
+        note_left_out(in_time, "renewal of the surface around poor tetrahedra", record, result);
         made = std::move(renewal.made);
       });
   }

@@ -48,6 +48,7 @@ struct PipelineResult {
   std::optional<TetMesh> volume_mesh;
   std::vector<StageRecord> stages;
   std::vector<WeakPlace> weak_places;  // of what was made; none of them is unusable
+  std::vector<std::string> left_out;   // for want of time, improvements: "better tetrahedra"
 
   const SurfaceMesh& reference() const { return given ? *given : scan; }
 };
@@ -55,8 +56,10 @@ struct PipelineResult {
 // Called after each stage.
 using StageListener = std::function<void(const StageRecord&)>;
 
-// Throws what the stages throw: NotMeshable, MeshingFailed, WrongUsage, Cancelled; and NotMeshable where what came out
-// is unusable (see weak_places.hpp).
+// Where `progress` has an end, the first surface and the first filling are made until then; what is better is looked
+// for while there is time, on the surface in half of what there is, so that as much is left for the tetrahedra. Throws
+// what the stages throw: NotMeshable, OutOfTime, MeshingFailed, WrongUsage, Cancelled; and NotMeshable where what came
+// out is unusable (see weak_places.hpp).
 PipelineResult run_pipeline(SurfaceMesh scan, const PipelineOptions& options = {}, const Progress& progress = {},
                             const StageListener& listener = {});
 

@@ -58,11 +58,8 @@ std::vector<ShorterEdges> shorter_around(const std::vector<PoorElement>& poor) {
 
 }  // namespace
 
-bool worth_renewing(const SimplifyOptions& simplification, const TetrahedralizeOptions& tetrahedralization,
-                    const FilledSurface& made) {
-  if (simplification.method != SimplifyMethod::lattice || simplification.effort == Effort::low ||
-      tetrahedralization.time_limit)
-    return false;
+bool worth_renewing(const SimplifyOptions& simplification, const FilledSurface& made) {
+  if (simplification.method != SimplifyMethod::lattice || simplification.effort == Effort::low) return false;
   if (simplification.effort != Effort::high &&
       (made.surface.triangles.size() > most_triangles || made.filled.mesh.tetrahedra.size() > most_elements))
     return false;
@@ -79,7 +76,8 @@ RenewalResult renew_where_poor(Simplification& search, const SimplifyOptions& si
   FilledSurface latest = made;
   result.made = std::move(made);
   int ways_tried = 0;  // since a surface that is better, or another one
-  while (result.rounds < most_rounds && !is_good(result.min_dihedral_after_deg, result.made, moved_deg)) {
+  while (result.rounds < most_rounds && !is_good(result.min_dihedral_after_deg, result.made, moved_deg) &&
+         progress.may_improve()) {
     const bool is_poor = !is_good(result.min_dihedral_after_deg, result.made, good_deg);
     const std::vector<PoorElement> poor = poor_elements(latest);
     // Along the surface first, which costs no distance from the scan.
@@ -91,15 +89,17 @@ RenewalResult renew_where_poor(Simplification& search, const SimplifyOptions& si
                                     latest.surface);
     if (!simplified) {
       if (!is_poor || !can_be_mended(poor, latest)) break;
-      simplified = search.run_again(shorter_around(poor), most, latest.surface, progress);
+      simplified = search.run_again(shorter_around(poor), most, latest.surface, progress.for_improvement());
       if (!simplified) break;
       ++result.rounds;
       ways_tried = 0;
     }
     try {
       latest.simplified = *simplified;
-      latest.filled = tetrahedralize(latest.surface, tetrahedralization, progress);
+      latest.filled = tetrahedralize(latest.surface, tetrahedralization, progress.for_improvement());
     } catch (const MeshingFailed&) {
+      break;
+    } catch (const OutOfTime&) {
       break;
     }
     const double angle = smallest_dihedral(latest);

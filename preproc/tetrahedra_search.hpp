@@ -16,10 +16,9 @@ struct FilledSurface {
 };
 
 // Whether elements came out with a dihedral angle below 28 degrees or 0.9 of what the surface allows (but at least 20),
-// and it is affordable to do something about them: not with Effort::low, the `collapse` method, a time limit or, unless
-// the effort is high, above 50,000 triangles.
-bool worth_renewing(const SimplifyOptions& simplification, const TetrahedralizeOptions& tetrahedralization,
-                    const FilledSurface& made);
+// and it is affordable to do something about them: not with Effort::low, the `collapse` method or, unless the effort is
+// high, above 50,000 triangles.
+bool worth_renewing(const SimplifyOptions& simplification, const FilledSurface& made);
 
 struct RenewalResult {
   FilledSurface made;  // the best, which may be the first
@@ -34,7 +33,8 @@ struct RenewalResult {
 // where of 6,000 triangles or more a tenth of all elements is poor). Another mesh takes the first one's place where its
 // smallest dihedral angle is larger by a degree, until none is poor or the search gives no other surface. Each costs a
 // filling; four other surfaces at most, and with Effort::high eight, with at most twice as many triangles, or 12,000.
-// Throws Cancelled. The same result for any number of threads. Not guaranteed: a gain.
+// When there is no time for improvements any more, the best so far is given; else the same result for any number of
+// threads. Throws Cancelled. Not guaranteed: a gain.
 RenewalResult renew_where_poor(Simplification& search, const SimplifyOptions& simplification,
                                const TetrahedralizeOptions& tetrahedralization, FilledSurface made,
                                const Progress& progress = {});

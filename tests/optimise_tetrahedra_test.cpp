@@ -236,9 +236,9 @@ TEST(OptimiseTetrahedra, StoppedAtAnyMomentItIsValidAndNoWorse) {
   const TetMesh before = unoptimised(analytic::noisy(analytic::sphere(1, 4), 0.005, 3), InteriorPoints::tetgen);
   for (const double milliseconds : {0.0, 1.0, 3.0, 10.0}) {
     TetMesh after = before;
-    OptimiseOptions options;
-    options.time_limit = std::chrono::duration<double>(milliseconds / 1000);
-    optimise_tetrahedra(after, 0, options);
+    const auto time =
+        std::chrono::duration_cast<Progress::Clock::duration>(std::chrono::duration<double, std::milli>(milliseconds));
+    optimise_tetrahedra(after, 0, {}, Progress().until(Progress::Clock::now() + time));
     expect_same_boundary(before, after);
     EXPECT_GE(worst_quality(after), worst_quality(before));
     EXPECT_NEAR(total_volume(after), total_volume(before), 1e-10 * total_volume(before));

@@ -3,6 +3,7 @@
 #include "preproc/pipeline.hpp"
 
 #include "preproc/surface/kernel/adjacency.hpp"
+#include "quality/self_intersections.hpp"
 #include "quality/tetrahedron_measures.hpp"
 #include "tests/analytic_meshes.hpp"
 
@@ -123,6 +124,29 @@ TEST(Pipeline, PutsTwoElementsAcrossAThinWall) {
     }
     ASSERT_LT(high - low, 0.99 * thickness);  // none reaches from side to side
   }
+}
+
+// Whatever the moment at which there is no time for improvements any more.
+TEST(Pipeline, WithoutTimeForImprovementsTheMeshIsValidAndItIsTold) {
+  const SurfaceMesh scan = analytic::noisy(analytic::sphere(1, 5), 0.004, 1);
+  PipelineOptions options;
+  options.simplify->effort = Effort::high;  // which has more to leave out
+  for (const int milliseconds : {0, 100, 300}) {
+    const auto end = Progress::Clock::now() + std::chrono::milliseconds(milliseconds);
+    const PipelineResult result =
+        run_pipeline(scan, options, Progress().until(Progress::Clock::time_point::max(), end));
+    ASSERT_TRUE(result.volume_mesh);
+    EXPECT_EQ(measure_tetrahedra(*result.volume_mesh).inverted, 0u);
+    EXPECT_EQ(result.volume_mesh->boundary.size(), result.surface.triangles.size());
+    EXPECT_NEAR(total_volume(*result.volume_mesh), enclosed_volume(scan), 1e-9);
+    EXPECT_TRUE(find_self_intersections(result.surface).empty());
+    EXPECT_TRUE(milliseconds > 0 || !result.left_out.empty());
+  }
+}
+
+TEST(Pipeline, WithoutTimeForAMeshThereIsNone) {
+  const auto end = Progress::Clock::now();
+  EXPECT_THROW(run_pipeline(analytic::sphere(1, 3), {}, Progress().until(end)), OutOfTime);
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ struct Chain {
     made.simplified = search->run(made.surface);
     made.filled = tetrahedralize(made.surface, tetrahedralization);
   }
-  bool worth() const { return worth_renewing(simplification, tetrahedralization, made); }
+  bool worth() const { return worth_renewing(simplification, made); }
 };
 
 TEST(TetrahedraSearch, MendsElementsInAThinWall) {
@@ -61,11 +61,20 @@ TEST(TetrahedraSearch, IsNotForGoodElements) {
 TEST(TetrahedraSearch, IsNotWhereTimeMattersMore) {
   Chain chain(uneven_shell(), 0.25);
   ASSERT_TRUE(chain.worth());
-  chain.tetrahedralization.time_limit = std::chrono::seconds(1000);
-  EXPECT_FALSE(chain.worth());
-  chain.tetrahedralization.time_limit.reset();
   chain.simplification.effort = Effort::low;
   EXPECT_FALSE(chain.worth());
+}
+
+TEST(TetrahedraSearch, WithoutTimeTheFirstMeshStands) {
+  Chain chain(uneven_shell(), 0.25);
+  ASSERT_TRUE(chain.worth());
+  const Progress progress = Progress().until(Progress::Clock::now());
+  const TetMesh first = chain.made.filled.mesh;
+  const RenewalResult result =
+      renew_where_poor(*chain.search, chain.simplification, chain.tetrahedralization, chain.made, progress);
+  EXPECT_EQ(result.rounds, 0);
+  EXPECT_EQ(result.made.filled.mesh.tetrahedra, first.tetrahedra);
+  EXPECT_TRUE(progress.ran_short());
 }
 
 }  // namespace

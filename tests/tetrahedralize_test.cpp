@@ -142,10 +142,10 @@ TEST(Tetrahedralize, SameBytesForAnyNumberOfThreads) {
 
 TEST(Tetrahedralize, WithoutTimeToOptimiseTheMeshIsValid) {
   const SurfaceMesh surface = analytic::sphere(1, 4);
-  TetrahedralizeOptions options;
-  options.optimise->time_limit = std::chrono::duration<double>(0);
-  const TetrahedralizeResult result = tetrahedralize(surface, options);
+  const Progress progress = Progress().until(Progress::Clock::time_point::max(), Progress::Clock::now());
+  const TetrahedralizeResult result = tetrahedralize(surface, {}, progress);
   EXPECT_TRUE(result.optimised.stopped_by_time);
+  EXPECT_TRUE(progress.ran_short());
   expect_valid(surface, result.mesh);
 }
 
@@ -226,6 +226,15 @@ TEST_F(TetrahedralizeChild, TimeLimitKillsIt) {
   EXPECT_THAT(failure(analytic::sphere(1, 1), options), HasSubstr("time limit"));
 }
 
+TEST_F(TetrahedralizeChild, TheEndOfTheTimeKillsIt) {
+  TetrahedralizeOptions options;
+  options.tetgen.worker = script("exec sleep 60");
+  const Progress progress = Progress().until(Progress::Clock::now() + std::chrono::milliseconds(300));
+  const auto error = error_from<OutOfTime>([&] { tetrahedralize(analytic::sphere(1, 1), options, progress); });
+  EXPECT_EQ(error.exit_code(), 4);
+  EXPECT_LT(Progress::Clock::now(), progress.end() + std::chrono::seconds(20));
+}
+
 TEST_F(TetrahedralizeChild, MemoryLimitIsReported) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "a sanitizer reserves more address space than any limit leaves";
@@ -249,7 +258,7 @@ TEST_F(TetrahedralizeChild, InterruptKillsIt) {
                Cancelled);
 }
 
-TEST_F(TetrahedralizeChild, LeavesNoTemporaryFolder) {
+TEST_F(TetrahedralizeChild, LeavesNothingInTheTemporaryFolder) {
   const TemporaryFolder folder;
   const char* before = std::getenv("TMPDIR");
   const std::string saved = before ? before : "";

@@ -10,6 +10,7 @@ SubCommand add_enrich(CLI::App& root) {
   CLI::App* app = root.add_subcommand("enrich", "One stage: add points where the scanner left too few");
   add_common_flags(*app, job->common);
   add_output_flag(*app, job->output);
+  add_time_limit_flag(*app, job->time_limit);
   add_enrich_flags(*app, *job->pipeline.enrich);
   return {app, [job] { return make_mesh(*job); }};
 }

@@ -118,6 +118,14 @@ void add_output_flag(CLI::App& command, std::filesystem::path& output) {
       ->type_name("FILE");
 }
 
+void add_time_limit_flag(CLI::App& command, std::optional<double>& seconds) {
+  command
+      .add_option("--time-limit", seconds,
+                  "Of the whole command, seconds: the best mesh that there is by then, or exit code 4")
+      ->check(positive)
+      ->type_name("S");
+}
+
 void add_force_flag(CLI::App& command, bool& force) {
   command.add_flag("--force", force, "Overwrite outputs that exist, reports too");
 }
@@ -351,12 +359,6 @@ void add_tetrahedralize_flags(CLI::App& command, TetrahedralizeOptions& options,
           },
           "Edge length inside, model units or times the surface's (1.6x, the default)")
       ->type_name("L");
-  command
-      .add_option_function<double>(
-          "--time-limit", [&options](double seconds) { options.time_limit = std::chrono::duration<double>(seconds); },
-          "Of the volume stage, seconds; what is left after TetGen is spent on better tetrahedra")
-      ->check(positive)
-      ->type_name("S");
   command.add_option("--max-volume", options.max_volume, "Largest tetrahedron, model units cubed")
       ->check(positive)
       ->type_name("V");

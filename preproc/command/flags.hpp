@@ -56,6 +56,7 @@ struct FeatureFileFlags {
 
 void add_common_flags(CLI::App& command, CommonFlags& flags);
 void add_output_flag(CLI::App& command, std::filesystem::path& output);
+void add_time_limit_flag(CLI::App& command, std::optional<double>& seconds);
 void add_force_flag(CLI::App& command, bool& force);  // of all that take no common flags
 void add_size_flags(CLI::App& command, SizeFlags& flags);
 void add_repair_flags(CLI::App& command, RepairOptions& options);

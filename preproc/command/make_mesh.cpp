@@ -10,6 +10,7 @@
 #include "preproc/mesh/write_surface.hpp"
 #include "preproc/surface/features/feature_file.hpp"
 
+#include <chrono>
 #include <cstdio>
 
 namespace scan2fea::command {
@@ -23,11 +24,12 @@ template <class AnyError>
 }
 
 // The stages know meshes and no files; a person wants to be told which of many files failed.
-PipelineResult run_naming_input(SurfaceMesh scan, const MakeMeshJob& job, ProgressDisplay& display) {
+PipelineResult run_naming_input(SurfaceMesh scan, const MakeMeshJob& job, const Progress& progress,
+                                ProgressDisplay& display) {
   const std::string input = job.common.input.string();
   const auto tell = [&](const StageRecord& stage) { display.line(describe_stage(stage)); };
   try {
-    return run_pipeline(std::move(scan), job.pipeline, display.progress(), tell);
+    return run_pipeline(std::move(scan), job.pipeline, progress, tell);
   } catch (const InvalidInput& e) {
     rethrow_naming(e, input);
   } catch (const NotMeshable& e) {
@@ -61,6 +63,27 @@ void require_known_format(const MakeMeshJob& job) {
          .advice = std::string(job.pipeline.tetrahedralize ? known_volume_formats() : known_surface_formats())});
 }
 
+// What remains of the time limit behind the end of the work is for measuring and writing. What does not come to its end
+// by itself is ended a little later.
+Progress limited(const Progress& progress, const MakeMeshJob& job) {
+  constexpr double for_work = 0.9, latest = 1.15;
+  char seconds[32];
+  std::snprintf(seconds, sizeof seconds, "%.6g s", *job.time_limit);
+  end_after(std::chrono::duration<double>(latest * *job.time_limit),
+            "scan2fea: " + job.common.input.string() +
+                ": the time limit ended the work before there was a valid mesh (limit: " + seconds +
+                "); try: a longer --time-limit, --effort low, or fewer triangles");
+  return progress.until(Progress::Clock::now() + std::chrono::duration_cast<Progress::Clock::duration>(
+                                                     std::chrono::duration<double>(for_work * *job.time_limit)));
+}
+
+void tell_what_was_left_out(const PipelineResult& result, const MakeMeshJob& job) {
+  if (result.left_out.empty()) return;
+  std::string list;
+  for (const std::string& what : result.left_out) list += (list.empty() ? "" : ", ") + what;
+  std::fprintf(stderr, "scan2fea: warning: %s: the time limit left out %s\n", job.common.input.c_str(), list.c_str());
+}
+
 void require_writable_outputs(const MakeMeshJob& job) {
   std::vector<OutputPath> outputs = report_outputs(job.common);
   outputs.push_back({job.output});
@@ -75,6 +98,7 @@ void require_writable_outputs(const MakeMeshJob& job) {
 void add_surface_flags(CLI::App& command, MakeMeshJob& job) {
   add_common_flags(command, job.common);
   add_output_flag(command, job.output);
+  add_time_limit_flag(command, job.time_limit);
   add_size_flags(command, job.size);
   add_repair_flags(command, *job.pipeline.repair);
   command.add_flag("--enrich", job.enrich, "First add points where the scanner left too few (see scan2fea enrich)");
@@ -85,19 +109,21 @@ void add_surface_flags(CLI::App& command, MakeMeshJob& job) {
 }
 
 int make_mesh(MakeMeshJob job) {
+  ProgressDisplay display(job.common.quiet);
+  const Progress progress = job.time_limit ? limited(display.progress(), job) : display.progress();
   require_known_format(job);
   require_writable_outputs(job);
   const std::vector<Gate> gates = parse_gates(job.common);
 
-  ProgressDisplay display(job.common.quiet);
   SurfaceMesh scan = read_surface(job.common.input);
   display.line(describe_input(scan, job.common));
   warn_of_coarse_coordinates(scan, job.common.input.string());
   if (job.features.read) job.pipeline.simplify->given_features = read_feature_lines(*job.features.read);
   if (job.pipeline.simplify) job.pipeline.simplify->size = job.size.target();
   if (job.enrich) job.pipeline.enrich = job.enrich_options;
-  const PipelineResult result = run_naming_input(std::move(scan), job, display);
+  const PipelineResult result = run_naming_input(std::move(scan), job, progress, display);
 
+  tell_what_was_left_out(result, job);
   for (const WeakPlace& place : result.weak_places)
     std::fprintf(stderr, "scan2fea: warning: %s: %s; a solver may refuse it\n", job.common.input.c_str(),
                  place.describe().c_str());

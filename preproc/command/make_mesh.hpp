@@ -11,7 +11,8 @@ struct MakeMeshJob {
   SizeFlags size;
   FeatureFileFlags features;
   PipelineOptions pipeline;
-  bool enrich = false;  // --enrich of the commands in which that stage is a choice
+  std::optional<double> time_limit;  // of the whole command, seconds
+  bool enrich = false;               // --enrich of the commands in which that stage is a choice
   EnrichOptions enrich_options;
   MshVersion msh_version = MshVersion::v4_1;
 };

@@ -10,6 +10,7 @@ SubCommand add_repair(CLI::App& root) {
   CLI::App* app = root.add_subcommand("repair", "One stage: close, orient and clean a scanned surface");
   add_common_flags(*app, job->common);
   add_output_flag(*app, job->output);
+  add_time_limit_flag(*app, job->time_limit);
   add_repair_flags(*app, *job->pipeline.repair);
   return {app, [job] { return make_mesh(*job); }};
 }

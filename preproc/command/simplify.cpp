@@ -10,6 +10,7 @@ SubCommand add_simplify(CLI::App& root) {
   CLI::App* app = root.add_subcommand("simplify", "One stage: fewer and better triangles on a repaired surface");
   add_common_flags(*app, job->common);
   add_output_flag(*app, job->output);
+  add_time_limit_flag(*app, job->time_limit);
   add_size_flags(*app, job->size);
   add_simplify_flags(*app, *job->pipeline.simplify);
   add_feature_file_flags(*app, job->features);

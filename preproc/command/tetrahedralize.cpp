@@ -11,6 +11,7 @@ SubCommand add_tetrahedralize(CLI::App& root) {
       root.add_subcommand("tetrahedralize", "One stage: fill a closed surface with tetrahedra, its triangles kept");
   add_common_flags(*app, job->common);
   add_output_flag(*app, job->output);
+  add_time_limit_flag(*app, job->time_limit);
   add_effort_flag(*app, job->pipeline);
   add_tetrahedralize_flags(*app, *job->pipeline.tetrahedralize, job->pipeline.order);
   add_msh_version_flag(*app, job->msh_version);

@@ -20,6 +20,13 @@ std::string one_line(const ErrorParts& parts) {
 
 Error::Error(ErrorParts parts) : std::runtime_error(one_line(parts)), parts_(std::move(parts)) {}
 
+OutOfTime::OutOfTime(std::string_view stage)
+    : NotMeshable({.what = "the time limit ended the work before there was a valid mesh",
+                   .where = {},
+                   .value = "it was at '" + std::string(stage) + "'",
+                   .limit = {},
+                   .advice = "a longer --time-limit, --effort low, or fewer triangles"}) {}
+
 Cancelled::Cancelled() : Error({.what = "interrupted", .where = {}, .value = {}, .limit = {}, .advice = {}}) {}
 
 }  // namespace scan2fea

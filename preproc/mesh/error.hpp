@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace scan2fea {
 
@@ -43,6 +44,11 @@ struct InvalidInput : Error {
 struct NotMeshable : Error {
   using Error::Error;
   int exit_code() const override { return 4; }
+};
+
+// The time that was given is over, and there is no valid mesh yet.
+struct OutOfTime : NotMeshable {
+  explicit OutOfTime(std::string_view stage);
 };
 
 // The tetrahedral mesher failed, crashed, or met its time or memory limit (exit 5).

@@ -15,8 +15,6 @@
 namespace scan2fea {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr double topology_gain = 1.0005;
 constexpr double insertion_gain = 1.02;
 // Stars without an element worse than this are left as the lattice made them.
@@ -37,7 +35,7 @@ constexpr std::uint32_t tried_topology = 1, tried_insertion = 2, tried_relocatio
 class Optimisation {
  public:
   Optimisation(const TetMesh& mesh, const OptimiseOptions& options, const Progress& progress)
-      : complex_(mesh), options_(options), progress_(progress), start_(Clock::now()) {}
+      : complex_(mesh), options_(options), progress_(progress) {}
 
   OptimiseResult run() {
     result_.worst_before = worst();
@@ -87,14 +85,14 @@ class Optimisation {
 
   void report(double fraction) {
     fraction_ = fraction;
-    progress_("optimise", fraction);
+    progress_.tell("optimise", fraction);
   }
 
   // Looks at the clock and for an interrupt now and then only.
   bool time_is_up() {
     if (result_.stopped_by_time) return true;
     if (++moves_ % 512 != 0) return false;
-    if (options_.time_limit && Clock::now() - start_ > *options_.time_limit) result_.stopped_by_time = true;
+    if (!progress_.may_improve()) result_.stopped_by_time = true;
     if (moves_ % 65536 == 0) report(fraction_);
     return result_.stopped_by_time;
   }
@@ -225,7 +223,6 @@ class Optimisation {
   TetComplex complex_;
   const OptimiseOptions& options_;
   const Progress& progress_;
-  Clock::time_point start_;
   OptimiseResult result_;
   VertexInsertion insertion_;
   VertexRemoval removal_;

@@ -5,9 +5,6 @@
 #include "preproc/mesh/progress.hpp"
 #include "preproc/mesh/tet_mesh.hpp"
 
-#include <chrono>
-#include <optional>
-
 namespace scan2fea {
 
 struct OptimiseOptions {
@@ -19,8 +16,6 @@ struct OptimiseOptions {
   // Rounds of topology with insertion and max-min relocation, 0 to 4. The third adds half a degree at most; but where
   // dihedral angles below 24 or above 136 degrees are left, there are up to 8 while they gain.
   int insertion_rounds = 2;
-  // Wall time after which the mesh is given as it then stands, valid and better than it was. None: until done.
-  std::optional<std::chrono::duration<double>> time_limit;
 };
 
 OptimiseOptions optimise_options(Effort effort);
@@ -36,8 +31,8 @@ struct OptimiseResult {
 // the least quality of what it touches, so the mesh's least quality never falls. At most a fortieth as many vertices
 // are inserted as there are elements, so that these grow by a sixth at most, and 40 on small meshes. The mesh is of
 // first order with positive tetrahedra; `boundary` and its nodes stay, in their order; nodes from `kept` on that lose
-// all their elements vanish. Deterministic, unless the time limit strikes. Throws Cancelled. Some 3 us per element on
-// one thread.
+// all their elements vanish. When there is no time for improvements any more, the mesh is given as it then stands,
+// valid and better than it was; else deterministic. Throws Cancelled. Some 3 us per element on one thread.
 OptimiseResult optimise_tetrahedra(TetMesh& mesh, std::size_t kept, const OptimiseOptions& options = {},
                                    const Progress& progress = {});
 

@@ -136,7 +136,7 @@ int wait_for(Child& child, const TetgenLimits& limits, const Progress& progress)
     const std::chrono::duration<double> elapsed = now - start;
     if (elapsed > limits.time)
       throw failed("TetGen exceeded the time limit", seconds_text(elapsed.count()), seconds_text(limits.time.count()),
-                   "a longer --time-limit or a coarser mesh");
+                   "a coarser mesh");
     if (now - reported < between_reports) continue;
     reported = now;
     // How far TetGen is, it does not tell: half way after ten seconds, never quite done.

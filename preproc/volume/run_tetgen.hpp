@@ -21,8 +21,9 @@ struct TetgenLimits {
 };
 
 // Hands the input to the worker in a file without a name, waits, and reads its output from another. The worker ends
-// with this process, however that ends. `progress` is asked some twenty times a second; when it cancels, the child is
-// killed. Throws MeshingFailed with one line for every way in which the child can fail, IoError where the files fail.
+// with this process, however that ends. `progress` is asked some twenty times a second; when it cancels or its time is
+// over, the child is killed. Throws MeshingFailed with one line for every way in which the child can fail, IoError
+// where the files fail.
 TetgenOutput run_tetgen(const TetgenInput& input, const TetgenLimits& limits = {}, const Progress& progress = {});
 
 }  // namespace scan2fea

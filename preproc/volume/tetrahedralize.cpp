@@ -72,12 +72,6 @@ SplitBoundary split_boundary(const TetgenOutput& output, const SurfaceMesh& surf
 
 TetrahedralizeResult tetrahedralize(const SurfaceMesh& surface, const TetrahedralizeOptions& options,
                                     const Progress& progress) {
-  using Clock = std::chrono::steady_clock;
-  const Clock::time_point start = Clock::now();
-  const auto time_left = [&](std::chrono::duration<double> own) {
-    return options.time_limit ? std::min(own, *options.time_limit - std::chrono::duration<double>(Clock::now() - start))
-                              : own;
-  };
   if (surface.triangles.empty())
     throw MeshingFailed({.what = "the surface has no triangles", .where = {}, .value = {}, .limit = {}, .advice = {}});
 
@@ -101,9 +95,7 @@ TetrahedralizeResult tetrahedralize(const SurfaceMesh& surface, const Tetrahedra
   }
   progress("fill with about " + std::to_string(result.estimated_tetrahedra) + " tetrahedra", 0);
 
-  TetgenLimits limits = options.tetgen;
-  limits.time = time_left(limits.time);
-  TetgenOutput output = run_tetgen(input, limits, progress);
+  TetgenOutput output = run_tetgen(input, options.tetgen, progress);
   std::vector<Triangle> triangles = surface.triangles;
   if (options.split_boundary) {
     SplitBoundary split = split_boundary(output, surface);
@@ -112,13 +104,10 @@ TetrahedralizeResult tetrahedralize(const SurfaceMesh& surface, const Tetrahedra
   }
   result.mesh =
       fill_regions(std::move(output.points), std::move(output.tetrahedra), triangles, surface.vertices.size());
-  progress("tetgen", 1);
+  progress.tell("tetgen", 1);
 
-  if (options.optimise) {
-    OptimiseOptions optimise = *options.optimise;
-    if (options.time_limit) optimise.time_limit = time_left(optimise.time_limit.value_or(*options.time_limit));
-    result.optimised = optimise_tetrahedra(result.mesh, surface.vertices.size(), optimise, progress);
-  }
+  if (options.optimise)
+    result.optimised = optimise_tetrahedra(result.mesh, surface.vertices.size(), *options.optimise, progress);
   return result;
 }
 

@@ -8,7 +8,6 @@
 #include "preproc/volume/run_tetgen.hpp"
 #include "preproc/volume/surface_bound.hpp"
 
-#include <chrono>
 #include <optional>
 #include <vector>
 
@@ -35,9 +34,6 @@ struct TetrahedralizeOptions {
   bool split_boundary = false;
   // None: the tetrahedra as TetGen made them.
   std::optional<OptimiseOptions> optimise = OptimiseOptions{};
-  // Of the whole stage, wall time: TetGen must be done by then, and what is left the optimisation may use; it ends with
-  // a valid mesh. None: no limit but TetGen's own.
-  std::optional<std::chrono::duration<double>> time_limit;
   TetgenLimits tetgen;
 };
 
@@ -56,8 +52,9 @@ struct TetrahedralizeResult {
 // The surface is closed, manifold, free of self-intersections and faces outwards; shells within shells that face
 // inwards are cavities and stay empty; disjoint bodies are all filled. Its triangles become `mesh.boundary` in their
 // order (unless split), its vertices the first nodes. `progress` is told the estimated count as part of the first
-// stage's name, before the mesher runs. The same mesh for the same input, unless the time limit strikes. Throws
-// MeshingFailed (see TetgenLimits and fill_regions), Cancelled. About 15 s for a million tetrahedra. Not guaranteed:
+// stage's name, before the mesher runs. TetGen must be done by the end of `progress`; the optimisation ends
+// with a valid mesh when there is no time for it. Else the same mesh for the same input. Throws MeshingFailed (see
+// TetgenLimits and fill_regions), OutOfTime, Cancelled. About 15 s for a million tetrahedra. Not guaranteed:
 // any shape of the tetrahedra but that they are positive; see SurfaceBound for what the surface allows.
 TetrahedralizeResult tetrahedralize(const SurfaceMesh& surface, const TetrahedralizeOptions& options = {},
                                     const Progress& progress = {});

@@ -154,7 +154,14 @@ Candidate best_by_lattice(const PreparedScanPointer& scan, const SizingOptions& 
   double best_score = std::numeric_limits<double>::infinity();
   for (int trial = 0; trial < plan.trials; ++trial) {
     const double strength_factor = 1 + strength_step * (trial - (plan.trials - 1) / 2.0);
-    Candidate candidate = by_lattice(scan, sizing, plan, strength_factor, progress);
+    const bool has_one = !best.mesh.triangles.empty();
+    Candidate candidate;
+    try {
+      candidate = by_lattice(scan, sizing, plan, strength_factor, has_one ? progress.for_improvement() : progress);
+    } catch (const OutOfTime&) {
+      if (has_one) break;
+      throw;
+    }
     if (!candidate.failure.empty()) {
       failed = std::move(candidate);
       continue;
@@ -349,12 +356,15 @@ Candidate make_surface(const PreparedScanPointer& scan, const SizingOptions& siz
   // A deviation asks for shorter edges itself.
   if (may_go_by_shape && !plan.within_deviation) {
     const bool lost_shape = failed || is_far(candidate);
-    if ((lost_shape || is_ill_shaped(candidate)) && is_part(scan->given)) {
-      Candidate by_shape =
-          make_surface_by_shape(*scan, sizing, options, effort, shape_budget(sizing.triangles, lost_shape), progress);
-      if (by_shape.failure.empty() && (failed ? is_usable(by_shape) : is_as_well_shaped(by_shape, candidate)))
-        return by_shape;
-    }
+    if ((lost_shape || is_ill_shaped(candidate)) && is_part(scan->given)) try {
+        Candidate by_shape =
+            make_surface_by_shape(*scan, sizing, options, effort, shape_budget(sizing.triangles, lost_shape),
+                                  failed ? progress : progress.for_improvement());
+        if (by_shape.failure.empty() && (failed ? is_usable(by_shape) : is_as_well_shaped(by_shape, candidate)))
+          return by_shape;
+      } catch (const OutOfTime&) {
+        if (failed) throw;
+      }
   }
   if (!failed) return candidate;
   if (scan->has_creases()) candidate = with_fewer_creases(std::move(candidate), sizing, plan, progress);
@@ -383,7 +393,14 @@ Candidate make_surface_by_shape(const PreparedScan& scan, const SizingOptions& s
     asked.keeps_count = false;
     ask_for_lengths(by_shape.scan->mesh, by_shape.length, asked);
     if (trial > 0 && asked.triangles > 2 * budget.triangles) break;
-    Candidate candidate = best_by_lattice(by_shape.scan, asked, plan, progress);
+    const bool has_one = trial > 0 && best.failure.empty();
+    Candidate candidate;
+    try {
+      candidate = best_by_lattice(by_shape.scan, asked, plan, has_one ? progress.for_improvement() : progress);
+    } catch (const OutOfTime&) {
+      if (has_one) break;
+      throw;
+    }
     candidate.lengths_by_shape = by_shape.length;
     double angle_deg = -1;
     std::vector<Vec3> bad = candidate.failed_at;

@@ -97,6 +97,15 @@ double shortening_for_shape(double mean_edge_ratio) {
   return std::max(least_shortening, std::sqrt((worst_mean_edge_ratio - aim - 1) / (mean_edge_ratio - 1)));
 }
 
+// What makes a valid surface better, and leaves it as it was where time runs out.
+template <class Work>
+void improve(const Progress& progress, const Work& work) {
+  try {
+    work(progress.for_improvement());
+  } catch (const OutOfTime&) {
+  }
+}
+
 std::string count(double triangles) {
   return std::to_string(std::lround(triangles));
 }
@@ -130,7 +139,8 @@ Candidate SurfaceSearch::run(const Progress& progress) {
   most_work_ = std::max(most_work * (wanted_.deviation ? first_work_ : wanted_.triangles), work_for_small);
   if (options_.method != SimplifyMethod::lattice) return std::move(best.candidate);
   bool was_by_shape = false;
-  for (int in_vain = 0; !is_accepted(latest) && in_vain <= patience(latest.candidate.faces());) {
+  for (int in_vain = 0;
+       !is_accepted(latest) && in_vain <= patience(latest.candidate.faces()) && progress.may_improve();) {
     std::vector<double> length = length_;
     const SizingOptions sizing = sizing_;
     lower_lengths(latest);
@@ -144,14 +154,15 @@ Candidate SurfaceSearch::run(const Progress& progress) {
     try {
       const bool by_shape = latest.gave_way() && wanted_.deviation && !was_by_shape;
       was_by_shape |= by_shape;
-      latest = by_shape ? make_by_shape(progress) : make(progress);
+      latest = by_shape ? make_by_shape(progress.for_improvement()) : make(progress.for_improvement());
     } catch (const NotMeshable&) {
       break;
     }
     in_vain = gains(latest, best) ? 0 : in_vain + 1;
     if (is_better(latest, best)) best = latest;
   }
-  if (wanted_.deviation && !holds(best) && best.share_beyond <= most_beyond) bring_within(best, progress);
+  if (wanted_.deviation && !holds(best) && best.share_beyond <= most_beyond)
+    improve(progress, [&](const Progress& in_time) { bring_within(best, in_time); });
   if (wanted_.deviation && wanted_.deviation->required && !holds(best))
     throw NotMeshable({.what = "the deviation was not reached",
                        .where = {},
@@ -258,8 +269,8 @@ SurfaceSearch::Trial SurfaceSearch::judged(Candidate candidate, const Progress& 
   if (wanted_.deviation)
     judge_deviation(made, progress);
   else if (made.candidate.method == SimplifyMethod::lattice)
-    lower_worst(made.candidate, options_.effort, progress);
-  mend_shape(made, progress);
+    improve(progress, [&](const Progress& in_time) { lower_worst(made.candidate, options_.effort, in_time); });
+  improve(progress, [&](const Progress& in_time) { mend_shape(made, in_time); });
   made.mean_edge_ratio = measure_triangles(made.candidate.mesh).edge_ratio.mean;
   const bool few = made.candidate.faces() < many_triangles && !wanted_.deviation;
   made.shape = find_shape_defects(made.candidate, few ? good_of_few_deg : good_of_many_deg);
@@ -271,7 +282,7 @@ void SurfaceSearch::judge_deviation(Trial& made, const Progress& progress) const
   made.share_beyond = share_beyond(note_deviation(made).to_reference, wanted_.deviation->distance);
   made.mean_edge_ratio = measure_triangles(made.candidate.mesh).edge_ratio.mean;
   if (!holds(made) && !made.gave_way() && is_shapely(made) && made.share_beyond <= few_beyond)
-    bring_within(made, progress);
+    improve(progress, [&](const Progress& in_time) { bring_within(made, in_time); });
 }
 
 DeviationBound SurfaceSearch::note_deviation(Trial& made) const {
@@ -298,22 +309,24 @@ void SurfaceSearch::bring_within(Trial& made, const Progress& progress) const {
   // What the patches' fits must follow, over the deviation; no looser than mending is (MendOptions), and not so tight
   // that shape has no say.
   constexpr double fidelity = 0.3, tightest = 1e-4, loosest = 1.6e-3;
-  made.was_mended = true;
+  Trial within = made;
+  within.was_mended = true;
   const double deviation = wanted_.deviation->distance;
-  const PreparedScan& scan = *made.candidate.scan;
-  SurfaceMesh& surface = made.candidate.mesh;
+  const PreparedScan& scan = *within.candidate.scan;
+  SurfaceMesh& surface = within.candidate.mesh;
   LocalRefinementOptions options;
   options.least_angle_deg = least_angle_deg;
   options.fidelity_of_diagonal = std::clamp(fidelity * deviation / scan.reference().diagonal, tightest, loosest);
   for (int trial = 0; trial < trials; ++trial) {
     options.limit = (1 - for_volume * std::pow(2, trial)) * deviation;
     const BoundedRefinementResult refined =
-        refine_within(surface, made.candidate.net, scan.reference(), scan.deviation_reference(), options, progress);
+        refine_within(surface, within.candidate.net, scan.reference(), scan.deviation_reference(), options, progress);
     if (scan.is_closed())
-      preserve_volume_clear(surface, scan.mesh, held_lines(made.candidate.net, surface.vertices.size()));
-    note_deviation(made);
-    if (holds(made) || refined.largest_deviation > options.limit) break;
+      preserve_volume_clear(surface, scan.mesh, held_lines(within.candidate.net, surface.vertices.size()));
+    note_deviation(within);
+    if (holds(within) || refined.largest_deviation > options.limit) break;
   }
+  made = std::move(within);
 }
 
 // Few bad triangles, folds and wedges are mended where they are. No tree of the scan is made for this alone: on a large
