@@ -22,6 +22,11 @@ Edge edge_between(Index a, Index b) {
   return std::minmax(a, b);
 }
 
+Triangle sorted(Triangle t) {
+  std::sort(t.begin(), t.end());
+  return t;
+}
+
 // What crosses one face: vertices on it, and lines between them.
 struct Cuts {
   std::set<Index> points;
@@ -94,7 +99,11 @@ class Arranging {
   }
 
   void cross(Index f, Index g) {
-    if (triangle(f).is_degenerate() || triangle(g).is_degenerate()) return;
+    const Triangle &of_f = mesh_.triangles[f], &of_g = mesh_.triangles[g];
+    if (is_collinear(mesh_.vertices, of_f) || is_collinear(mesh_.vertices, of_g)) return;
+    if (sorted(of_f) == sorted(of_g)) overlapping_.insert(overlapping_.end(), {{f, g}, {g, f}});
+    // Of a surface and its copy nearly all pairs end here: they meet in vertices that are one by now.
+    if (sorted(of_f) == sorted(of_g) || !faces_intersect(mesh_.vertices, of_f, of_g)) return;
     const auto common = CGAL::intersection(triangle(f), triangle(g));
     if (!common) return;
     std::vector<Point> outline;

@@ -187,6 +187,27 @@ bool is_sliver(const SurfaceMesh& mesh, std::uint32_t face, double width) {
   return 2 * area_of(mesh, face) < width * longest;
 }
 
+// Leaves one of the triangles on the same three vertices, that of the first face. Returns whether any went.
+bool leave_one_of_each(Arrangement& arrangement) {
+  std::vector<std::pair<Triangle, std::uint32_t>> sorted;
+  for (std::uint32_t f = 0; f < arrangement.mesh.triangles.size(); ++f) {
+    sorted.emplace_back(arrangement.mesh.triangles[f], f);
+    std::sort(sorted[f].first.begin(), sorted[f].first.end());
+  }
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<char> again(sorted.size(), 0);
+  for (std::size_t i = 1; i < sorted.size(); ++i) again[sorted[i].second] = sorted[i].first == sorted[i - 1].first;
+  std::size_t left = 0;
+  for (std::size_t f = 0; f < again.size(); ++f) {
+    if (again[f]) continue;
+    arrangement.mesh.triangles[left] = arrangement.mesh.triangles[f];
+    arrangement.face_of[left++] = arrangement.face_of[f];
+  }
+  arrangement.mesh.triangles.resize(left);
+  arrangement.face_of.resize(left);
+  return left < again.size();
+}
+
 // Triangles that hang together across edges of two, and the largest of each such piece.
 std::vector<std::uint32_t> largest_of_pieces(const SurfaceMesh& mesh, UnionFind& pieces) {
   EdgeGroups(mesh).for_each([&](const std::uint32_t* first, const std::uint32_t* last) {
@@ -212,6 +233,7 @@ std::optional<Union> unite(Part& part, bool may_be_inside_out) {
     Union made{arrange(part.mesh, part.pairs), {}};
     join_close_vertices(made.arrangement);
     SurfaceMesh& mesh = made.arrangement.mesh;
+    bool changed = leave_one_of_each(made.arrangement);
     made.kept.assign(mesh.triangles.size(), 0);
     const Winding winding(part.mesh, made.arrangement);
     UnionFind pieces(mesh.triangles.size());
@@ -230,7 +252,8 @@ std::optional<Union> unite(Part& part, bool may_be_inside_out) {
       made.kept[f] = 1;
       if (of_piece.outside > 0) std::swap(mesh.triangles[f][1], mesh.triangles[f][2]);
     }
-    if (std::find(made.kept.begin(), made.kept.end(), 0) == made.kept.end()) return {};  // they only touch
+    changed |= std::find(made.kept.begin(), made.kept.end(), 0) != made.kept.end();
+    if (!changed) return {};  // they only touch
     if (may_be_inside_out || std::find(inside_out.begin(), inside_out.end(), 1) == inside_out.end()) return made;
     std::erase_if(part.pairs, [&](const FacePair& pair) { return inside_out[crossing[pair.face]] != 0; });
   }
