@@ -59,8 +59,8 @@ class Choice {
   bool stays(std::size_t i, BodiesOfNote) const {
     const Shell &body = shells_[bodies_[i]], &whole = largest();
     const bool holds_volume = !body.open && !whole.open;
-    const double content = holds_volume ? std::abs(body.volume) : body.area;
-    const double of_whole = holds_volume ? std::abs(whole.volume) : whole.area;
+    const double content = holds_volume ? std::abs(body.volume) : std::pow(body.area, 1.5);
+    const double of_whole = holds_volume ? std::abs(whole.volume) : std::pow(whole.area, 1.5);
     return body.box.diagonal() >= small_size * whole.box.diagonal() || content >= small_content * of_whole;
   }
 

@@ -10,8 +10,9 @@
 namespace scan2fea {
 
 // All but those that are small beside the largest both in size, below a tenth of its bounding box's diagonal, and in
-// what they hold, below a thousandth of its volume (of its area, where one of the two is open). A body that is small in
-// one of them alone (a long thin rod, a small solid beside a large thin frame) may well carry load.
+// what they hold, below a thousandth of its volume (of what balls of their areas hold, where one of the two is open). A
+// body that is small in one of them alone (a long thin rod, a small solid beside a large thin frame) may well carry
+// load.
 struct BodiesOfNote {
   bool operator==(const BodiesOfNote&) const = default;
 };
