@@ -1,8 +1,14 @@
 #include "export/formats.hpp"
 #include "preproc/command/figures.hpp"
+#include "preproc/command/output_files.hpp"
 #include "preproc/command/sub_commands.hpp"
 #include "preproc/mesh/error.hpp"
+#include "preproc/mesh/error_text.hpp"
 #include "preproc/mesh/read_surface.hpp"
+#include "preproc/surface/features/feature_file.hpp"
+#include "preproc/surface/repair/openings.hpp"
+
+#include <algorithm>
 
 namespace scan2fea::command {
 namespace {
@@ -10,6 +16,7 @@ namespace {
 struct CheckFlags {
   CommonFlags common;
   std::optional<std::filesystem::path> reference;
+  std::optional<std::filesystem::path> leaks;
 };
 
 // The surface, or a volume mesh's boundary.
@@ -26,11 +33,35 @@ Loaded load(const std::filesystem::path& file) {
   return loaded;
 }
 
+// The openings' borders, for viewers, and the largest as lines of text.
+void tell_leaks(const std::vector<Opening>& openings, ProgressDisplay& display) {
+  constexpr std::size_t most_lines = 8;
+  display.line(openings.empty() ? "no openings: the surface bounds a volume"
+                                : std::to_string(openings.size()) + (openings.size() == 1 ? " opening" : " openings"));
+  for (std::size_t i = 0; i < std::min(openings.size(), most_lines); ++i)
+    display.line("  at " + error_text(openings[i].place) + ", size " + error_text(openings[i].size) +
+                 ", border of length " + error_text(openings[i].length));
+  if (openings.size() > most_lines) display.line("  ... and " + std::to_string(openings.size() - most_lines) + " more");
+}
+
+FeatureLines lines_of(const std::vector<Opening>& openings) {
+  FeatureLines lines;
+  for (const Opening& opening : openings) {
+    const auto first = static_cast<std::uint32_t>(lines.points.size());
+    lines.points.insert(lines.points.end(), opening.border.begin(), opening.border.end());
+    for (auto i = first; i < lines.points.size(); ++i)
+      lines.segments.push_back({i, i + 1 < lines.points.size() ? i + 1 : first});
+  }
+  return lines;
+}
+
 int check(const CheckFlags& flags) {
   const std::vector<Gate> gates = parse_gates(flags.common);
   std::vector<std::filesystem::path> inputs = inputs_of(flags.common);
   if (flags.reference) inputs.push_back(*flags.reference);
-  require_writable(report_outputs(flags.common), inputs, flags.common.force);
+  std::vector<OutputPath> files = report_outputs(flags.common);
+  if (flags.leaks) files.push_back({*flags.leaks});
+  require_writable(files, inputs, flags.common.force);
   ProgressDisplay display(flags.common.quiet);
   const Loaded mesh = load(flags.common.input);
   display.line(describe_input(mesh.surface, flags.common));
@@ -43,6 +74,11 @@ int check(const CheckFlags& flags) {
                         .stages = nullptr,
                         .repaired = nullptr};
   StagedOutputs outputs;
+  if (flags.leaks) {
+    const std::vector<Opening> openings = find_openings(mesh.surface);
+    tell_leaks(openings, display);
+    outputs.add(*flags.leaks, text_of(lines_of(openings)));
+  }
   const bool all_pass = report_figures(subject, flags.common, gates, display, outputs);
   outputs.commit();
   return all_pass ? 0 : 1;
@@ -55,6 +91,9 @@ SubCommand add_check(CLI::App& root) {
   CLI::App* app = root.add_subcommand("check", "Figures and gates of a surface or a volume mesh");
   add_common_flags(*app, flags->common);
   app->add_option("--reference", flags->reference, "What the surface is compared with, usually the scan")
+      ->type_name("FILE");
+  app->add_option("--leaks", flags->leaks,
+                  "Write the borders of the openings that the surface leaks through: OBJ lines")
       ->type_name("FILE");
   return {app, [flags] { return check(*flags); }};
 }

@@ -15,8 +15,9 @@
 namespace scan2fea {
 namespace {
 
-// Where each face crosses more others than this, sheets lie in a tangle that tells no inside from outside, and that
-// takes long to arrange. Solids that cross have two or three pairs a face.
+// Where the faces of one shell cross more of its others than this each, sheets lie in a tangle that tells no inside
+// from outside, and that takes long to arrange. A tube through itself has two or three; of two shells whose flat ends
+// touch the fans of triangles there meet all to all.
 constexpr std::size_t most_pairs_a_face = 8;
 
 // Shells that cross one another, and the pairs in which they do.
@@ -49,7 +50,8 @@ std::vector<CrossingSet> find_sets(const SurfaceMesh& mesh, const std::vector<Sh
   std::vector<CrossingSet> by_root(shells.size());
   for (const FacePair& pair : wanted) by_root[joined.find(shell_of_face[pair.face])].pairs.push_back(pair);
   for (std::uint32_t s = 0; s < shells.size(); ++s) by_root[joined.find(s)].shells.push_back(s);
-  std::erase_if(by_root, [](const CrossingSet& set) { return set.pairs.empty() || is_tangle(set); });
+  std::erase_if(by_root,
+                [](const CrossingSet& set) { return set.pairs.empty() || (set.shells.size() == 1 && is_tangle(set)); });
   return by_root;
 }
 

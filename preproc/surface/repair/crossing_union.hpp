@@ -17,7 +17,8 @@ enum class Crossings {
 // Replaces shells that cross by the surface of all that they enclose: what has material on one side (a winding number
 // of one or more) and none on the other. A shell may cross itself with both sides the right way round, as a tube does
 // that passes through itself; where it is inside out beyond a crossing (a winding number below 0), as in the folds of a
-// noisy scan, there is nothing to unite, and that crossing stays. So does a tangle, of more than eight pairs a face.
+// noisy scan, there is nothing to unite, and that crossing stays. So does the tangle of a shell with itself that has
+// more than eight pairs a face.
 //
 // `pairs` are the surface's intersecting pairs. Faces that nothing crosses stay where they are or go; new ones come
 // last. Vertices stay bit by bit; new ones, where shells cross, are rounded, which can make their faces cross again by

@@ -44,14 +44,16 @@ std::vector<std::optional<LargeHole>> find_large_holes(const SurfaceMesh& mesh, 
 // Whoever scanned one side of a panel needs something else than whoever scanned most of a solid.
 [[noreturn]] void fail_of_hole(const SurfaceMesh& mesh, const Shell& shell, const LargeHole& hole) {
   const bool is_solid = nearly_encloses(mesh, shell);
-  throw NotMeshable({.what = is_solid
-                                 ? "the surface is open: its hole is too large to close"
-                                 : "the surface is a sheet that encloses no volume: its opening is too large to close",
-                     .where = error_text(hole.place),
-                     .value = "size " + error_text(hole.size),
-                     .limit = error_text(hole.limit),
-                     .advice = is_solid ? "a scan of what is missing, or --largest-hole all, which makes it up"
-                                        : "--thickness T, which makes a solid of the sheet, or a scan of all sides"});
+  throw NotMeshable(
+      {.what = is_solid ? "the surface is open: its hole is too large to close"
+                        : "the surface is a sheet that encloses no volume: its opening is too large to close",
+       .where = error_text(hole.place),
+       .value = "size " + error_text(hole.size),
+       .limit = error_text(hole.limit),
+       .advice = is_solid
+                     ? "a scan of what is missing, or --largest-hole all, which makes it up; check --leaks FILE shows "
+                       "where"
+                     : "--thickness T, which makes a solid of the sheet, or a scan of all sides"});
 }
 
 std::optional<PatchShape> plainer(PatchShape shape) {

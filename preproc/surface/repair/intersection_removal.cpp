@@ -95,14 +95,26 @@ void mark_non_manifold(const SurfaceMesh& mesh, FaceMarks& marks) {
   });
 }
 
-// The pairs become those of the surface of the union, with one fan of faces per vertex. Where rounding leaves it open
-// there is no union.
+void fill(SurfaceMesh& mesh, const Twins& twins, const std::vector<BorderLoop>& loops, PatchShape shape,
+          RepairResult& result) {
+  const std::size_t before = mesh.triangles.size();
+  for (const BorderLoop& loop : loops) append_patch(mesh, make_patch(mesh, twins, loop, shape));
+  result.faces_added += mesh.triangles.size() - before;
+}
+
+// The pairs become those of the surface of the union, with one fan of faces per vertex. Slivers as narrow as rounding
+// may be missing from it, and are filled in; where more is missing there is no union.
 void unite(SurfaceMesh& mesh, std::vector<FacePair>& pairs, Crossings which, RepairResult& result) {
+  constexpr double most_filled_of_area = 1e-6;
   SurfaceMesh united = mesh;
   RepairResult of_the_union;
   if (!unite_crossings(united, pairs, which, of_the_union)) return;
   RepairResult of_its_rounding;  // what follows from it: nothing to report
   stitch_borders(united, of_its_rounding);
+  const Twins twins = make_manifold(united, of_its_rounding);
+  const double open_area = surface_area(united);
+  fill(united, twins, find_border_loops(united, twins), PatchShape::Triangles, of_the_union);
+  if (surface_area(united) - open_area > most_filled_of_area * open_area) return;
   make_manifold(united, of_its_rounding);
   mend_degenerate_faces(united, of_its_rounding);
   if (!Borders(united).empty()) return;
@@ -149,9 +161,9 @@ IntersectionRemoval remove_intersections(SurfaceMesh& mesh, RepairResult& result
     const Twins twins = make_manifold(mesh, of_the_cut);
     result.faces_removed += of_the_cut.faces_removed;
     const std::size_t kept = mesh.triangles.size();
-    for (const BorderLoop& loop : find_border_loops(mesh, twins))
-      if (!borders.share_an_edge(mesh, loop)) append_patch(mesh, make_patch(mesh, twins, loop, rounds[i].shape));
-    result.faces_added += mesh.triangles.size() - kept;
+    std::vector<BorderLoop> loops = find_border_loops(mesh, twins);
+    std::erase_if(loops, [&](const BorderLoop& loop) { return borders.share_an_edge(mesh, loop); });
+    fill(mesh, twins, loops, rounds[i].shape, result);
 
     std::vector<std::uint32_t> patches(mesh.triangles.size() - kept);
     std::iota(patches.begin(), patches.end(), static_cast<std::uint32_t>(kept));

@@ -1,7 +1,6 @@
 #include "preproc/surface/repair/repair.hpp"
 
 #include "preproc/mesh/error_text.hpp"
-#include "preproc/surface/repair/border_stitching.hpp"
 #include "preproc/surface/repair/degenerate_faces.hpp"
 #include "preproc/surface/repair/face_marks.hpp"
 #include "preproc/surface/repair/hole_closing.hpp"
@@ -25,19 +24,6 @@ constexpr double least_volume_of_area = 1e-6;
 
 // Cutting out more would make another shape of the scan.
 constexpr double most_cut_of_area = 1.0 / 3;
-
-void clean_soup(SurfaceMesh& mesh, RepairResult& result) {
-  drop_collapsed_faces(mesh, result);
-  drop_duplicate_faces(mesh, result);
-  const std::size_t before = result.changes.size();
-  weld_borders(mesh, result);
-  stitch_borders(mesh, result);
-  if (result.changes.size() != before) {
-    drop_collapsed_faces(mesh, result);
-    drop_duplicate_faces(mesh, result);
-  }
-  drop_inner_walls(mesh, result);
-}
 
 // Shells that bound nothing: dropped where they lie in a solid (as the faces do along which two solids touched) or are
 // small, an error where they are what there is. Those that are to stay open bound nothing anyway.

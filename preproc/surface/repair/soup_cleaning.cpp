@@ -2,6 +2,7 @@
 
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/union_find.hpp"
+#include "preproc/surface/repair/border_stitching.hpp"
 #include "preproc/surface/repair/face_marks.hpp"
 #include "preproc/surface/repair/soup_adjacency.hpp"
 
@@ -307,6 +308,19 @@ std::vector<Vec3> drop_unused_vertices(SurfaceMesh& mesh) {
   for (Triangle& t : mesh.triangles)
     for (std::uint32_t& v : t) v = new_index[v];
   return unused;
+}
+
+void clean_soup(SurfaceMesh& mesh, RepairResult& result) {
+  drop_collapsed_faces(mesh, result);
+  drop_duplicate_faces(mesh, result);
+  const std::size_t before = result.changes.size();
+  weld_borders(mesh, result);
+  stitch_borders(mesh, result);
+  if (result.changes.size() != before) {
+    drop_collapsed_faces(mesh, result);
+    drop_duplicate_faces(mesh, result);
+  }
+  drop_inner_walls(mesh, result);
 }
 
 }  // namespace scan2fea
