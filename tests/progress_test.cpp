@@ -44,6 +44,12 @@ TEST(Progress, WhatIsBetterEndsEarlier) {
   EXPECT_TRUE(progress.ran_short());
 }
 
+TEST(Progress, AnImprovementWithoutTimeIsPassedOver) {
+  const auto work = [](const Progress& in_time) { in_time("stage", 0.5); };
+  EXPECT_NO_THROW(Progress().until(now() + long_time, now()).improve(work));
+  EXPECT_THROW(Progress([](std::string_view, double) { return false; }).improve(work), Cancelled);
+}
+
 TEST(Progress, AnEndOnlyComesNearer) {
   const Progress over = Progress().until(now());
   EXPECT_THROW(over.until(now() + long_time)("stage", 0.5), OutOfTime);
@@ -57,6 +63,18 @@ TEST(Progress, EachEndTellsOfItselfWhetherTimeRanShort) {
   EXPECT_FALSE(stage.may_improve());
   EXPECT_TRUE(stage.ran_short());
   EXPECT_FALSE(whole.until(whole.end()).ran_short());
+}
+
+TEST(Progress, WorkIsAnnouncedWhoeverAsks) {
+  std::string told;
+  const Progress progress({}, [&](std::string_view work, double seconds) {
+    told += work;
+    told += seconds > 1 ? "!" : ".";
+  });
+  progress.announce("much", 20);
+  progress.until(now() + long_time).for_improvement().announce("little", 0.1);
+  EXPECT_EQ(told, "much!little.");
+  Progress().announce("to nobody", 1);
 }
 
 TEST(Progress, TheCallbackCancels) {

@@ -63,18 +63,21 @@ void require_known_format(const MakeMeshJob& job) {
          .advice = std::string(job.pipeline.tetrahedralize ? known_volume_formats() : known_surface_formats())});
 }
 
-// What remains of the time limit behind the end of the work is for measuring and writing. What does not come to its end
-// by itself is ended a little later.
+// What remains of the time limit is for measuring and writing, which take longer the more was made. What does not come
+// to its end by itself is ended a little later.
 Progress limited(const Progress& progress, const MakeMeshJob& job) {
-  constexpr double for_work = 0.9, latest = 1.15;
+  constexpr double for_improvement = 0.75, for_work = 0.9, latest = 1.15;
   char seconds[32];
   std::snprintf(seconds, sizeof seconds, "%.6g s", *job.time_limit);
   end_after(std::chrono::duration<double>(latest * *job.time_limit),
             "scan2fea: " + job.common.input.string() +
                 ": the time limit ended the work before there was a valid mesh (limit: " + seconds +
                 "); try: a longer --time-limit, --effort low, or fewer triangles");
-  return progress.until(Progress::Clock::now() + std::chrono::duration_cast<Progress::Clock::duration>(
-                                                     std::chrono::duration<double>(for_work * *job.time_limit)));
+  const auto after = [&, start = Progress::Clock::now()](double share) {
+    return start + std::chrono::duration_cast<Progress::Clock::duration>(
+                       std::chrono::duration<double>(share * *job.time_limit));
+  };
+  return progress.until(after(for_work), after(for_improvement));
 }
 
 void tell_what_was_left_out(const PipelineResult& result, const MakeMeshJob& job) {

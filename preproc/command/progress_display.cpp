@@ -18,10 +18,16 @@ ProgressDisplay::~ProgressDisplay() {
 }
 
 Progress ProgressDisplay::progress() {
-  return Progress([this](std::string_view stage, double fraction) {
+  const auto callback = [this](std::string_view stage, double fraction) {
     update(stage, fraction);
     return true;
-  });
+  };
+  const auto announce = [this](std::string_view work, double processor_seconds) {
+    char seconds[32];
+    std::snprintf(seconds, sizeof seconds, "%.1g", processor_seconds);
+    line("next: " + std::string(work) + ", about " + seconds + " s of processor time");
+  };
+  return Progress(callback, announce);
 }
 
 void ProgressDisplay::line(const std::string& text) {

@@ -16,10 +16,14 @@ class Progress {
  public:
   // Returns false to ask the algorithm to stop. `fraction` is in [0, 1].
   using Callback = std::function<bool(std::string_view stage, double fraction)>;
+  // Told before a piece of work what it is, and about how long it takes on one processor, by what is to be made of how
+  // much.
+  using Announce = std::function<void(std::string_view work, double processor_seconds)>;
   using Clock = std::chrono::steady_clock;
 
   Progress() = default;
-  explicit Progress(Callback callback) : callback_(std::move(callback)) {}
+  explicit Progress(Callback callback, Announce announce = {})
+      : callback_(std::move(callback)), announce_(std::move(announce)) {}
 
   // The same, with an end of all work, and of what makes a valid result better; or with earlier ones.
   Progress until(Clock::time_point end) const { return until(end, end); }
@@ -36,6 +40,14 @@ class Progress {
     progress.end_ = end_of_improvement_;
     return progress;
   }
+  // Does such work, which leaves the result as it was where it throws.
+  template <class Work>
+  void improve(const Work& work) const {
+    try {
+      work(for_improvement());
+    } catch (const OutOfTime&) {
+    }
+  }
   Clock::time_point end() const { return end_; }
 
   // Throws Cancelled if the callback asks to stop, and OutOfTime after the end. Algorithms call it at points where
@@ -50,6 +62,10 @@ class Progress {
   }
   bool may_improve() const { return !is_over(end_of_improvement_); }
 
+  void announce(std::string_view work, double processor_seconds) const {
+    if (announce_) announce_(work, processor_seconds);
+  }
+
   // Whether time was over for anybody who asked, since `until`.
   bool ran_short() const { return ran_short_ && *ran_short_; }
 
@@ -61,6 +77,7 @@ class Progress {
   }
 
   Callback callback_;
+  Announce announce_;
   Clock::time_point end_ = Clock::time_point::max(), end_of_improvement_ = Clock::time_point::max();
   std::shared_ptr<bool> ran_short_;  // there is none where there is no end
 };

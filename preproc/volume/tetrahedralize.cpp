@@ -37,6 +37,9 @@ std::string switches(const TetrahedralizeOptions& options, bool own_points) {
 // that help.
 constexpr double most_thin_walls = 0.6;
 
+// With TetGen and the optimisation, 4 to 10 us on scans.
+constexpr double processor_seconds_a_tetrahedron = 8e-6;
+
 // The lattice's edges in elements of a given volume: a cell of volume a^3 holds 12, and near the surface, where the
 // lattice is cut, they may be larger by half.
 InteriorSize limited(InteriorSize size, const std::optional<double>& max_volume, const SurfaceMesh& surface) {
@@ -93,7 +96,8 @@ TetrahedralizeResult tetrahedralize(const SurfaceMesh& surface, const Tetrahedra
     input.points.insert(input.points.end(), points.begin(), points.end());
     result.estimated_tetrahedra = estimate_with_lattice(surface, points.size());
   }
-  progress("fill with about " + std::to_string(result.estimated_tetrahedra) + " tetrahedra", 0);
+  progress.announce("about " + std::to_string(result.estimated_tetrahedra) + " tetrahedra",
+                    processor_seconds_a_tetrahedron * static_cast<double>(result.estimated_tetrahedra));
 
   TetgenOutput output = run_tetgen(input, options.tetgen, progress);
   std::vector<Triangle> triangles = surface.triangles;

@@ -51,8 +51,8 @@ struct TetrahedralizeResult {
 // Source: Si, "TetGen, a Delaunay-based quality tetrahedral mesh generator", ACM TOMS 41 (2015).
 // The surface is closed, manifold, free of self-intersections and faces outwards; shells within shells that face
 // inwards are cavities and stay empty; disjoint bodies are all filled. Its triangles become `mesh.boundary` in their
-// order (unless split), its vertices the first nodes. `progress` is told the estimated count as part of the first
-// stage's name, before the mesher runs. TetGen must be done by the end of `progress`; the optimisation ends
+// order (unless split), its vertices the first nodes. `progress` announces the estimated count before the mesher
+// runs. TetGen must be done by the end of `progress`; the optimisation ends
 // with a valid mesh when there is no time for it. Else the same mesh for the same input. Throws MeshingFailed (see
 // TetgenLimits and fill_regions), OutOfTime, Cancelled. About 15 s for a million tetrahedra. Not guaranteed:
 // any shape of the tetrahedra but that they are positive; see SurfaceBound for what the surface allows.

@@ -110,6 +110,9 @@ RepairResult climb(SurfaceMesh& mesh, const RepairOptions& options, const Progre
   RepairResult result;
   const bool keep_holes = options.holes == Holes::keep;
   const bool gentle = options.level == RepairLevel::gentle;
+  constexpr double a_triangle = 1.5e-6;  // where there is little to repair
+  progress.announce("repair of " + std::to_string(mesh.triangles.size()) + " triangles",
+                    a_triangle * static_cast<double>(mesh.triangles.size()));
   progress("repair", 0);
   for (const Vec3& p : drop_unused_vertices(mesh)) result.changes.push_back({RepairKind::UnusedVertex, p, 0});
   const SurfaceValidity validity = check_validity(mesh);

@@ -97,13 +97,10 @@ double shortening_for_shape(double mean_edge_ratio) {
   return std::max(least_shortening, std::sqrt((worst_mean_edge_ratio - aim - 1) / (mean_edge_ratio - 1)));
 }
 
-// What makes a valid surface better, and leaves it as it was where time runs out.
-template <class Work>
-void improve(const Progress& progress, const Work& work) {
-  try {
-    work(progress.for_improvement());
-  } catch (const OutOfTime&) {
-  }
+// From the Horse, igea, the bunny and fandisk with 5,000 to 80,000 triangles, within a factor of two.
+double processor_seconds_of_surface(double triangles, std::size_t of_scan, Effort effort) {
+  const double of_effort = effort == Effort::low ? 0.7 : effort == Effort::high ? 5 : 1;
+  return of_effort * (45e-6 * triangles + 2e-6 * static_cast<double>(of_scan));
 }
 
 std::string count(double triangles) {
@@ -139,8 +136,8 @@ Candidate SurfaceSearch::run(const Progress& progress) {
   most_work_ = std::max(most_work * (wanted_.deviation ? first_work_ : wanted_.triangles), work_for_small);
   if (options_.method != SimplifyMethod::lattice) return std::move(best.candidate);
   bool was_by_shape = false;
-  for (int in_vain = 0;
-       !is_accepted(latest) && in_vain <= patience(latest.candidate.faces()) && progress.may_improve();) {
+  int in_vain = 0;
+  while (!is_accepted(latest) && in_vain <= patience(latest.candidate.faces()) && progress.may_improve()) {
     std::vector<double> length = length_;
     const SizingOptions sizing = sizing_;
     lower_lengths(latest);
@@ -162,7 +159,7 @@ Candidate SurfaceSearch::run(const Progress& progress) {
     if (is_better(latest, best)) best = latest;
   }
   if (wanted_.deviation && !holds(best) && best.share_beyond <= most_beyond)
-    improve(progress, [&](const Progress& in_time) { bring_within(best, in_time); });
+    progress.improve([&](const Progress& in_time) { bring_within(best, in_time); });
   if (wanted_.deviation && wanted_.deviation->required && !holds(best))
     throw NotMeshable({.what = "the deviation was not reached",
                        .where = {},
@@ -247,6 +244,8 @@ void SurfaceSearch::set_first_sizing(const Progress& progress) {
 
 SurfaceSearch::Trial SurfaceSearch::make(const Progress& progress) {
   const bool is_first = work_ == 0;  // what the shape needs does not change from one surface to the next
+  progress.announce("a surface of about " + count(sizing_.triangles) + " triangles",
+                    processor_seconds_of_surface(sizing_.triangles, scan_->mesh.triangles.size(), options_.effort));
   return judged(make_surface(scan_, sizing_, options_, options_.effort, is_first, progress), progress);
 }
 
@@ -269,8 +268,8 @@ SurfaceSearch::Trial SurfaceSearch::judged(Candidate candidate, const Progress& 
   if (wanted_.deviation)
     judge_deviation(made, progress);
   else if (made.candidate.method == SimplifyMethod::lattice)
-    improve(progress, [&](const Progress& in_time) { lower_worst(made.candidate, options_.effort, in_time); });
-  improve(progress, [&](const Progress& in_time) { mend_shape(made, in_time); });
+    progress.improve([&](const Progress& in_time) { lower_worst(made.candidate, options_.effort, in_time); });
+  progress.improve([&](const Progress& in_time) { mend_shape(made, in_time); });
   made.mean_edge_ratio = measure_triangles(made.candidate.mesh).edge_ratio.mean;
   const bool few = made.candidate.faces() < many_triangles && !wanted_.deviation;
   made.shape = find_shape_defects(made.candidate, few ? good_of_few_deg : good_of_many_deg);
@@ -282,7 +281,7 @@ void SurfaceSearch::judge_deviation(Trial& made, const Progress& progress) const
   made.share_beyond = share_beyond(note_deviation(made).to_reference, wanted_.deviation->distance);
   made.mean_edge_ratio = measure_triangles(made.candidate.mesh).edge_ratio.mean;
   if (!holds(made) && !made.gave_way() && is_shapely(made) && made.share_beyond <= few_beyond)
-    improve(progress, [&](const Progress& in_time) { bring_within(made, in_time); });
+    progress.improve([&](const Progress& in_time) { bring_within(made, in_time); });
 }
 
 DeviationBound SurfaceSearch::note_deviation(Trial& made) const {
