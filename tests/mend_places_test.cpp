@@ -102,6 +102,26 @@ TEST_F(MendPlaces, FoldsAreOpened) {
   expect_sound(mesh);
 }
 
+// Two vertices beside each other change places: faces around them turn over and cross.
+TEST_F(MendPlaces, TanglesAreLaidOutAnew) {
+  SurfaceMesh mesh = even_;
+  const Triangle t = mesh.triangles[100];
+  const Vec3 there = mesh.vertices[t[0]];
+  std::swap(mesh.vertices[t[0]], mesh.vertices[t[1]]);
+  const ReferenceSurface scan(scan_);
+  const SurfaceDefects defects = find_defects(mesh, scan, scan_vertices_of_faces(mesh, scan), 0);
+  ASSERT_FALSE(defects.meshable());
+  const MendPlacesResult result = mend_tangles(mesh, none_, scan, defects, {.limit = limit});
+  EXPECT_GE(result.mended, 1U);
+  EXPECT_EQ(result.left, 0U);
+  EXPECT_GE(least_angle_deg(mesh), 25);
+  expect_sound(mesh);
+  for (std::size_t v = 0; v < even_.vertices.size(); ++v)
+    if ((even_.vertices[v] - there).norm() > 1) {
+      EXPECT_EQ(mesh.vertices[v], even_.vertices[v]);
+    }
+}
+
 TEST_F(MendPlaces, LeavesWhatLacksNothing) {
   SurfaceMesh mesh = even_;
   const MendPlacesResult result = mend(mesh, {{tip, 0.25}, 0.5}, {.limit = limit});

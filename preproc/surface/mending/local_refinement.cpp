@@ -135,12 +135,6 @@ class Hopeless {
   std::vector<bool> is_hopeless_;
 };
 
-ShorterEdges shorter_around(const SurfaceMesh& mesh, std::uint32_t face) {
-  const Triangle& t = mesh.triangles[face];
-  const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
-  return {{(a + b + c) / 3, std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()})}, shortening};
-}
-
 PatchChanges refine_places(PatchMender& mender, const SurfaceMesh& mesh, const ReferenceSurface& scan,
                            const std::vector<double>& deviation, Mending how, const LocalRefinementOptions& options,
                            Hopeless& hopeless) {
@@ -155,7 +149,7 @@ PatchChanges refine_places(PatchMender& mender, const SurfaceMesh& mesh, const R
     if (hopeless.holds(place.face)) continue;
     if (places.size() == options.most_places) break;
     const Triangle& t = mesh.triangles[place.face];
-    places.push_back({{t.begin(), t.end()}, place.deviation, shorter_around(mesh, place.face)});
+    places.push_back({{t.begin(), t.end()}, place.deviation, shorter_around(mesh, place.face, shortening)});
   }
   for (int rings = how == Mending::shorten ? most_rings : fewest_rings; rings <= most_rings && !places.empty(); ++rings)
     places = mender.mend(std::move(places), rings, how, goal);
@@ -263,6 +257,7 @@ BoundedRefinementResult refine_within(SurfaceMesh& mesh, FeatureNet& net, const 
       how = Mending::improve;
       continue;
     }
+    if (places_beyond(deviation, options.limit).size() > options.most_to_yield) break;
     hopeless.clear();
     if (how == Mending::improve && shortened++ < most_shortenings) {
       how = Mending::shorten;

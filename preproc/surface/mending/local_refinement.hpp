@@ -25,6 +25,8 @@ struct LocalRefinementOptions {
   std::size_t most_vertices = std::numeric_limits<std::size_t>::max();  // inserted; each makes two triangles more
   // Of refine_worst: where more places are beyond the limit, only so many of the worst are mended. At least 1.
   std::size_t most_places = std::numeric_limits<std::size_t>::max();
+  // Of refine_within: where more places are stuck, neither edges are made shorter there nor smaller angles allowed.
+  std::size_t most_to_yield = std::numeric_limits<std::size_t>::max();
   // Of refine_within, each bounded; at least 1.
   int rounds = 40;
 };

@@ -4,8 +4,10 @@
 #include "preproc/surface/kernel/adjacency.hpp"
 #include "preproc/surface/mending/mend_patches.hpp"
 
+#include <initializer_list>
 #include <limits>
 #include <string>
+#include <utility>
 
 namespace scan2fea {
 namespace {
@@ -44,27 +46,58 @@ std::vector<std::uint32_t> vertices_of_place(const SurfaceMesh& mesh, const Vert
   return reached;
 }
 
-}  // namespace
+// As they are, then those that are left with shorter edges.
+MendPlacesResult mend(PatchMender& mender, std::vector<PatchPlace> places, const PatchGoal& goal,
+                      const Progress& progress) {
+  places = mender.mend(std::move(places), rings_moved, Mending::improve, goal, progress);
+  const std::size_t good_enough =
+      std::erase_if(places, [](const PatchPlace& place) { return place.shorter.factor >= least_shortening; });
+  places = mender.mend(std::move(places), rings_shortened, Mending::shorten, goal, progress);
+  const PatchChanges changes = mender.take_changes();
+  return {changes.patches, changes.inserted, good_enough + places.size()};
+}
 
-MendPlacesResult mend_places(SurfaceMesh& mesh, FeatureNet& net, const ReferenceSurface& scan,
-                             const TriangleTree* scan_tree, std::span<const ShorterEdges> places,
-                             const MendPlacesOptions& options, const Progress& progress) {
-  check(options);
+PatchGoal goal_of(const MendPlacesOptions& options, const ReferenceSurface& scan) {
   PatchGoal goal;
   goal.limit = options.limit;
   goal.fidelity = options.fidelity_of_diagonal * scan.diagonal;
   goal.least_angle_deg = options.least_angle_deg;
   goal.most_vertices = std::numeric_limits<std::size_t>::max();
   goal.for_shape = true;
+  return goal;
+}
+
+}  // namespace
+
+MendPlacesResult mend_places(SurfaceMesh& mesh, FeatureNet& net, const ReferenceSurface& scan,
+                             const TriangleTree* scan_tree, std::span<const ShorterEdges> places,
+                             const MendPlacesOptions& options, const Progress& progress) {
+  check(options);
   PatchMender mender(mesh, net, scan, scan_tree);
   const VertexStars stars(mesh);
   std::vector<PatchPlace> left;
   for (const ShorterEdges& place : places)
     left.push_back({vertices_of_place(mesh, stars, place.where), options.limit, place});
-  left = mender.mend(std::move(left), rings_moved, Mending::improve, goal, progress);
-  left = mender.mend(std::move(left), rings_shortened, Mending::shorten, goal, progress);
-  const PatchChanges changes = mender.take_changes();
-  return {changes.patches, changes.inserted, left.size()};
+  return mend(mender, std::move(left), goal_of(options, scan), progress);
+}
+
+MendPlacesResult mend_tangles(SurfaceMesh& mesh, FeatureNet& net, const ReferenceSurface& scan,
+                              const SurfaceDefects& defects, const MendPlacesOptions& options,
+                              const Progress& progress) {
+  check(options);
+  std::vector<PatchPlace> tangles;
+  const auto add = [&](std::initializer_list<std::uint32_t> faces) {
+    PatchPlace place{{}, options.limit, shorter_around(mesh, *faces.begin(), most_shortening)};
+    for (const std::uint32_t f : faces)
+      place.seeds.insert(place.seeds.end(), mesh.triangles[f].begin(), mesh.triangles[f].end());
+    tangles.push_back(std::move(place));
+  };
+  for (const FacePair& pair : defects.crossings) add({pair.face, pair.other});
+  for (const std::uint32_t f : defects.inverted) add({f});
+  PatchGoal goal = goal_of(options, scan);
+  goal.may_be_tangled = true;
+  PatchMender mender(mesh, net, scan, nullptr);
+  return mend(mender, std::move(tangles), goal, progress);
 }
 
 }  // namespace scan2fea

@@ -2,7 +2,8 @@
 // another lattice of the whole.
 //
 // Folds are opened, edges flipped and split and vertices fitted until no angle of a triangle, and no half of an angle
-// between two faces, which bounds that of tetrahedra, is below the least; where that is in vain, with shorter edges. A
+// between two faces, which bounds that of tetrahedra, is below the least; where that is in vain, with shorter edges,
+// but not where the place lacks so little that the least shortening is wanted: what they insert costs more than that. A
 // patch is kept only where nothing crosses, angles are better as a whole, none between faces gets worse, and the
 // deviation stays within the limit or no larger than it was.
 #pragma once
@@ -10,6 +11,7 @@
 #include "preproc/mesh/progress.hpp"
 #include "preproc/surface/features/feature_net.hpp"
 #include "preproc/surface/fit/reference_surface.hpp"
+#include "preproc/surface/mending/defects.hpp"
 #include "preproc/surface/sizing/shorter_edges.hpp"
 #include "quality/triangle_tree.hpp"
 
@@ -41,5 +43,12 @@ struct MendPlacesResult {
 MendPlacesResult mend_places(SurfaceMesh& mesh, FeatureNet& net, const ReferenceSurface& scan,
                              const TriangleTree* scan_tree, std::span<const ShorterEdges> places,
                              const MendPlacesOptions& options, const Progress& progress = {});
+
+// The same where faces cross or are inverted, as a lattice leaves a few: `mesh` may do so at these defects. Any sound
+// state is better, however far it is, so that a few places do not cost the rest of the surface. Nothing crosses any
+// more where no place is left.
+MendPlacesResult mend_tangles(SurfaceMesh& mesh, FeatureNet& net, const ReferenceSurface& scan,
+                              const SurfaceDefects& defects, const MendPlacesOptions& options,
+                              const Progress& progress = {});
 
 }  // namespace scan2fea

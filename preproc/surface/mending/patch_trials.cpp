@@ -264,6 +264,26 @@ void Surroundings::pull(Trial& trial) const {
   }
 }
 
+void Surroundings::relax(Trial& trial) const {
+  constexpr int sweeps = 50;  // each takes in a ring of edges; patches have a few
+  SurfaceMesh& patch = trial.patch;
+  const std::vector<bool> held = held_vertices(trial);
+  const VertexStars stars(patch);
+  for (int sweep = 0; sweep < sweeps; ++sweep)
+    for (std::uint32_t v = 0; v < held.size(); ++v) {
+      if (held[v]) continue;
+      Vec3 sum = Vec3::Zero();
+      double count = 0;
+      for (const std::uint32_t corner : stars.corners(v))
+        for (const std::uint32_t w : patch.triangles[corner / 3])
+          if (w != v) {
+            sum += patch.vertices[w];
+            ++count;
+          }
+      patch.vertices[v] = sum / count;
+    }
+}
+
 void Surroundings::open_folds(Trial& trial, const std::vector<bool>& held) const {
   const double wanted_deg = 2 * goal_.least_angle_deg + opened_beyond_deg;
   const std::vector<FeatureEdge> lines = trial.edges_on_lines();

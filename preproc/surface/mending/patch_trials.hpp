@@ -23,6 +23,8 @@ struct PatchGoal {
   // The shape is to gain, with the deviation kept, instead of the other way round: angles of triangles, and halves of
   // those between faces, below `least_angle_deg` are what lacks.
   bool for_shape = false;
+  // Faces may cross or be folded before: then any sound state is better, and reached, however far it is.
+  bool may_be_tangled = false;
 };
 
 // Where a patch was cut out of the surface; it stays as it was while the patch changes.
@@ -43,9 +45,10 @@ struct Trial {
   double sharpest_deg = 180, sharpest_on_line_deg = 180;
   // Per face of the patch, of both sides: the scan's points belong to the face nearest to them.
   std::vector<double> deviation{};
-  double merit = 0;         // sum of ((deviation - limit) / limit)^4 over the faces beyond the limit
-  double lack = 0;          // sum of the squares of what angles lack of the least, degrees; only where that is the goal
-  bool certified = false;   // the deviation is an upper bound for all points, not of samples
+  double merit = 0;        // sum of ((deviation - limit) / limit)^4 over the faces beyond the limit
+  double lack = 0;         // sum of the squares of what angles lack of the least, degrees; only where that is the goal,
+                           // and infinite where faces cross
+  bool certified = false;  // the deviation is an upper bound for all points, not of samples
   std::uint32_t worst = 0;  // face of the patch, by what the goal is about
 
   std::size_t vertices() const { return patch.vertices.size(); }
@@ -71,6 +74,10 @@ class Surroundings {
   // by the least moves of the vertices there (see constraint_projection.hpp): without a word on the triangles' shape,
   // which such small moves change little. Not guaranteed: that all comes out.
   void pull(Trial& trial) const;
+
+  // Lays the patch as a membrane over its rim and lines, which seldom crosses or folds, wherever the scan is: a sound
+  // start for fits that a tangle leads astray.
+  void relax(Trial& trial) const;
 
   // All but the deviation. False where the trial leaves the box or is worse in shape than `now`: smaller angles than
   // the least, or faces that close on one another more sharply than they did and than tetrahedra can bear.

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <span>
@@ -178,6 +179,11 @@ Trial with_shorter_edges(Trial now, const PatchOutline& outline, const FeatureNe
   return now;
 }
 
+// Every sound state is better.
+void set_tangled(Trial& trial) {
+  trial.lack = trial.merit = std::numeric_limits<double>::infinity();
+}
+
 // What a patch is to lower; 0 is reached.
 double score_of(const Trial& trial, const PatchGoal& goal) {
   return goal.for_shape ? trial.lack : trial.merit;
@@ -203,6 +209,9 @@ class Step {
     surroundings_.pull(trial);
     return may_gain(trial) && has_reached();
   }
+
+  // As it is.
+  bool keeps(Trial trial) { return may_gain(trial) && has_reached(); }
 
   double gain() const { return best_ ? score(*best_) / score(now_) : 1; }
   std::optional<Trial> take() { return std::move(best_); }
@@ -236,6 +245,12 @@ class Step {
 std::optional<Trial> next_state(const Trial& now, const Surroundings& surroundings, const FeatureNet& net,
                                 const PatchGoal& goal, std::size_t room) {
   Step step(now, surroundings, goal);
+  if (!std::isfinite(now.lack)) {  // tangled
+    Trial relaxed = now;
+    surroundings.relax(relaxed);
+    if (step.reaches(relaxed) || step.reaches_pulled(relaxed) || step.keeps(relaxed) || step.gain() < 1)
+      return step.take();
+  }
   if (step.reaches_pulled(now) || step.reaches(now) || step.gain() <= good_gain) return step.take();
   const HalfedgeMesh mesh(now.patch);
   const EdgesAround edges = edges_around(mesh, now.worst);
@@ -309,22 +324,35 @@ Trial RefinementPatch::after_steps(Trial now, const Surroundings& surroundings, 
   return now;
 }
 
+// As it is, whatever it is.
+Trial RefinementPatch::first_state(const Surroundings& surroundings, const PatchGoal& goal) const {
+  Trial first{.patch = patch_, .lines = lines_};
+  surroundings.keeps_shape(first, first);
+  surroundings.sample_deviation(first, std::numeric_limits<double>::infinity());
+  if (goal.may_be_tangled) {
+    set_tangled(first);
+    first.certified = true;
+    first.sharpest_deg = first.sharpest_on_line_deg = 0;
+  }
+  return first;
+}
+
 PatchOutcome RefinementPatch::improve(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& around,
                                       const SurfaceMesh& scan, const std::vector<std::uint32_t>& scan_faces,
                                       const FeatureNet& net, const PatchGoal& goal) {
   const Surroundings surroundings(mesh, outline_, patch_, around, scan, scan_faces, goal);
   if (!surroundings.has_scan()) return {};
-  Trial first{.patch = patch_, .lines = lines_};
-  // As it is, whatever it is.
-  surroundings.keeps_shape(first, first);
-  surroundings.sample_deviation(first, std::numeric_limits<double>::infinity());
+  Trial first = first_state(surroundings, goal);
   if (!goal.for_shape) surroundings.certify(first);
   if (score_of(first, goal) == 0) return {.improved = false, .reached = true};
   Trial now = after_steps(first, surroundings, net, goal);
   const bool no_farther = holds(first, now, surroundings);  // which certifies
-  const bool improved = no_farther && score_of(now, goal) <= least_gain * score_of(first, goal);
+  const bool improved =
+      no_farther && std::isfinite(now.lack) && score_of(now, goal) <= least_gain * score_of(first, goal);
   const Trial& last = improved ? now : first;
-  const bool reached = goal.for_shape ? last.lack == 0 : last.deviation[last.worst] <= goal.allowed;
+  const bool reached = goal.may_be_tangled ? improved
+                       : goal.for_shape    ? last.lack == 0
+                                           : last.deviation[last.worst] <= goal.allowed;
   if (improved) take(std::move(now));
   return {.improved = improved, .reached = reached};
 }
@@ -334,9 +362,7 @@ PatchOutcome RefinementPatch::shorten(const SurfaceMesh& mesh, const std::vector
                                       const FeatureNet& net, const PatchGoal& goal, const ShorterEdges& place) {
   const Surroundings surroundings(mesh, outline_, patch_, around, scan, scan_faces, goal);
   if (!surroundings.has_scan()) return {};
-  Trial first{.patch = patch_, .lines = lines_};
-  surroundings.keeps_shape(first, first);
-  surroundings.sample_deviation(first, std::numeric_limits<double>::infinity());
+  Trial first = first_state(surroundings, goal);
   Trial now = with_shorter_edges(first, outline_, net, place, goal.most_vertices);
   if (now.vertices() == first.vertices()) return {};
   Trial fitted = now;
@@ -345,6 +371,7 @@ PatchOutcome RefinementPatch::shorten(const SurfaceMesh& mesh, const std::vector
   // Long edges beside short ones make angles that flips and fits can mend.
   surroundings.keeps_shape(now, now);
   surroundings.sample_deviation(now, std::numeric_limits<double>::infinity());
+  if (goal.may_be_tangled && !surroundings.is_clear(now)) set_tangled(now);
   now = after_steps(std::move(now), surroundings, net, goal);
   // What is a little too far can be mended by the next patches.
   const bool is_near = holds(first, now, surroundings) || (!goal.for_shape && now.merit < promising);

@@ -60,6 +60,7 @@ class RefinementPatch {
 
  private:
   Trial after_steps(Trial now, const Surroundings& surroundings, const FeatureNet& net, const PatchGoal& goal) const;
+  Trial first_state(const Surroundings& surroundings, const PatchGoal& goal) const;
   bool holds(Trial& first, Trial& now, const Surroundings& surroundings) const;
   void take(Trial trial);
 

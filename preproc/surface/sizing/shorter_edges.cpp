@@ -9,6 +9,12 @@ ShorterEdges shorter_edges(const Vec3& centre, double longest_edge, double angle
   return {{centre, reach * longest_edge}, std::clamp(angle_deg / good_deg, most_shortening, least_shortening)};
 }
 
+ShorterEdges shorter_around(const SurfaceMesh& mesh, std::uint32_t face, double factor) {
+  const Triangle& t = mesh.triangles[face];
+  const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+  return {{(a + b + c) / 3, std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()})}, factor};
+}
+
 std::vector<ShorterEdges> without_overlaps(std::span<const ShorterEdges> places) {
   std::vector<ShorterEdges> apart;
   for (const ShorterEdges& place : places)

@@ -22,6 +22,9 @@ struct ShorterEdges {
 // within one and a half of its longest edge, so that its neighbours are shortened too.
 ShorterEdges shorter_edges(const Vec3& centre, double longest_edge, double angle_deg, double good_deg);
 
+// Around a face of a mesh that nothing else helps.
+ShorterEdges shorter_around(const SurfaceMesh& mesh, std::uint32_t face, double factor);
+
 // Without those whose centre lies in one before. O(n x what is left).
 std::vector<ShorterEdges> without_overlaps(std::span<const ShorterEdges> places);
 
