@@ -25,6 +25,8 @@ constexpr double many_poor = 0.1;
 constexpr std::size_t most_triangles = 50000, most_elements = 6 * most_triangles;
 // No more triangles than these, over the first surface's or absolute.
 constexpr double most_growth = 2, most_of_small = 12000;
+// Another lattice may turn out better by chance, which is waited for longer where it costs little.
+constexpr std::size_t few_triangles = 5000;
 // Of what lacks to moved_deg: vertices of poor elements that gained so much by moving are moved again.
 constexpr double worth_again = 0.25;
 // A smaller gain is not worth other triangles than the ones that were told.
@@ -71,10 +73,12 @@ RenewalResult renew_where_poor(Simplification& search, const SimplifyOptions& si
                                const Progress& progress) {
   RenewalResult result;
   result.min_dihedral_before_deg = result.min_dihedral_after_deg = smallest_dihedral(made);
+  const int most_in_vain = made.surface.triangles.size() < few_triangles ? 4 : 2;
   const int most_rounds = simplification.effort == Effort::high ? 8 : 4;
   const double most = std::max(most_growth * static_cast<double>(made.surface.triangles.size()), most_of_small);
   FilledSurface latest = made;
   result.made = std::move(made);
+  int in_vain = 0;     // surfaces since one that is better
   int ways_tried = 0;  // since a surface that is better, or another one
   while (result.rounds < most_rounds && !is_good(result.min_dihedral_after_deg, result.made, moved_deg) &&
          progress.may_improve()) {
@@ -88,10 +92,11 @@ RenewalResult renew_where_poor(Simplification& search, const SimplifyOptions& si
                                                       ways_tried == 0 ? 0 : search.way_off(), moved_deg),
                                     latest.surface);
     if (!simplified) {
-      if (!is_poor || !can_be_mended(poor, latest)) break;
+      if (!is_poor || !can_be_mended(poor, latest) || in_vain == most_in_vain) break;
       simplified = search.run_again(shorter_around(poor), most, latest.surface, progress.for_improvement());
       if (!simplified) break;
       ++result.rounds;
+      ++in_vain;
       ways_tried = 0;
     }
     try {
@@ -107,6 +112,7 @@ RenewalResult renew_where_poor(Simplification& search, const SimplifyOptions& si
     if (!is_mended && angle < result.min_dihedral_after_deg + worth_it_deg) continue;
     if (is_poor && angle - result.min_dihedral_after_deg > worth_again * (moved_deg - result.min_dihedral_after_deg))
       ways_tried = 0;
+    in_vain = 0;
     result.min_dihedral_after_deg = angle;
     result.made = latest;
   }

@@ -1,6 +1,7 @@
 #include "preproc/surface/simplification/shape_check.hpp"
 
 #include "preproc/surface/kernel/adjacency.hpp"
+#include "preproc/surface/kernel/components.hpp"
 #include "quality/triangle_measures.hpp"
 #include "quality/triangle_tree.hpp"
 
@@ -132,6 +133,40 @@ class ShapeCheck {
 
 ShapeDefects find_shape_defects(const Candidate& candidate, double least_angle_deg) {
   return ShapeCheck(candidate, least_angle_deg).defects();
+}
+
+bool is_far(const Candidate& candidate) {
+  constexpr double largest_deviation = 0.003;  // of a body's diagonal
+  const Components bodies = find_components(candidate.mesh);
+  const std::vector<double> diagonal = diagonals(candidate.mesh, bodies);
+  for (std::size_t f = 0; f < candidate.faces(); ++f)
+    if (candidate.fit.largest_distance_of_face[f] >
+        largest_deviation * diagonal[bodies.of_vertex[candidate.mesh.triangles[f][0]]])
+      return true;
+  return false;
+}
+
+bool is_ill_shaped(const Candidate& candidate) {
+  constexpr double worst_mean_edge_ratio = 1.25;
+  return measure_triangles(candidate.mesh).edge_ratio.mean > worst_mean_edge_ratio;
+}
+
+double smallest_angle_beside_creases_deg(const Candidate& candidate, double limit_deg, std::vector<Vec3>& below) {
+  const SurfaceMesh& mesh = candidate.mesh;
+  const std::vector<FeatureEdge> creases = edges_of(candidate.net);
+  const auto is_crease = [&](std::uint32_t a, std::uint32_t b) {
+    return std::binary_search(creases.begin(), creases.end(), feature_edge(a, b));
+  };
+  double smallest = 60;
+  for (const Triangle& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t v = t[k], next = t[(k + 1) % 3], last = t[(k + 2) % 3];
+      const double angle = angle_deg(mesh.vertices[v], mesh.vertices[next], mesh.vertices[last]);
+      if (angle >= std::max(smallest, limit_deg) || (is_crease(v, next) && is_crease(v, last))) continue;
+      smallest = std::min(smallest, angle);
+      if (angle < limit_deg) below.push_back(mesh.vertices[v]);
+    }
+  return smallest;
 }
 
 }  // namespace scan2fea

@@ -25,4 +25,13 @@ struct ShapeDefects {
 // elements across walls below 25, or `least_angle_deg` if that is less. O(n log n), three searches a triangle.
 ShapeDefects find_shape_defects(const Candidate& candidate, double least_angle_deg);
 
+// Whether a part came out far from where it was. The bound is above that of the default job.
+bool is_far(const Candidate& candidate);
+
+// What isotropic remeshing reaches on parts, and more.
+bool is_ill_shaped(const Candidate& candidate);
+
+// The smallest angle but for those between two creases, with where those below the limit are.
+double smallest_angle_beside_creases_deg(const Candidate& candidate, double limit_deg, std::vector<Vec3>& below);
+
 }  // namespace scan2fea

@@ -10,8 +10,10 @@
 #include "preproc/surface/lattice/lattice.hpp"
 #include "preproc/surface/mending/local_moves.hpp"
 #include "preproc/surface/mending/local_refinement.hpp"
+#include "preproc/surface/mending/mend_places.hpp"
 #include "preproc/surface/mending/mend_surface.hpp"
 #include "preproc/surface/simplification/scan_by_shape.hpp"
+#include "preproc/surface/simplification/shape_check.hpp"
 #include "preproc/surface/sizing/shape_lengths.hpp"
 #include "preproc/surface/sizing/shorter_edges.hpp"
 #include "preproc/surface/sizing/split_long_edges.hpp"
@@ -79,8 +81,31 @@ std::string describe(const SurfaceDefects& defects) {
          std::to_string(defects.inverted.size()) + " inverted faces remained";
 }
 
+// Few places where faces cross or are inverted are mended where they are: to give up the lattice for them costs far
+// more. Not on parts with edges, which then want fewer of these, unless the deviation is bounded afterwards.
+bool mend_few_tangles(Candidate& candidate, const SurfaceDefects& defects, bool within_deviation,
+                      const Progress& progress) {
+  const PreparedScan& scan = *candidate.scan;
+  const double few = scan.has_creases() || !within_deviation ? 0.01 : 0.03;  // of the faces; else make another surface
+  if (static_cast<double>(defects.crossings.size() + defects.inverted.size()) >
+          few * static_cast<double>(candidate.faces()) ||
+      (scan.has_creases() && !within_deviation) || !(candidate.fit.largest_distance > 0))
+    return false;
+  MendPlacesOptions options;
+  options.limit = candidate.fit.largest_distance;
+  SurfaceMesh mesh = candidate.mesh;
+  FeatureNet net = candidate.net;
+  if (mend_tangles(mesh, net, scan.reference(), defects, options, progress).left > 0) return false;
+  if (scan.is_closed()) preserve_volume_clear(mesh, scan.mesh, held_lines(net, mesh.vertices.size()));
+  if (!find_self_intersections(mesh).empty()) return false;
+  candidate.mesh = std::move(mesh);
+  candidate.net = std::move(net);
+  candidate.fit.largest_distance_of_face.resize(candidate.faces(), 0);
+  return true;
+}
+
 // Exact volume, mending, and flips of what it leaves without area.
-void finish(Candidate& candidate, double largest_inverted_share, const MendOptions& options, const Progress& progress) {
+void finish(Candidate& candidate, const FitPlan& plan, const MendOptions& options, const Progress& progress) {
   const PreparedScan& scan = *candidate.scan;
   try {
     MendOptions mending = options;
@@ -93,8 +118,10 @@ void finish(Candidate& candidate, double largest_inverted_share, const MendOptio
       candidate.mesh = std::move(flipped);
     const std::size_t inverted = mended.after.inverted.size();
     if (mended.after.crossings.empty() &&
-        static_cast<double>(inverted) <= largest_inverted_share * static_cast<double>(candidate.mesh.triangles.size()))
+        static_cast<double>(inverted) <=
+            plan.largest_inverted_share() * static_cast<double>(candidate.mesh.triangles.size()))
       return;
+    if (mend_few_tangles(candidate, mended.after, plan.within_deviation, progress)) return;
     candidate.failure = describe(mended.after);
     const auto centre = [&](std::uint32_t f) {
       const auto& [a, b, c] = candidate.mesh.triangles[f];
@@ -142,7 +169,7 @@ Candidate by_lattice(const PreparedScanPointer& prepared, const SizingOptions& s
     mending.fidelity_of_diagonal = candidate.fit.fidelity_of_diagonal;
     mending.loosest_fidelity_of_diagonal = 2 * candidate.fit.fidelity_of_diagonal;
   }
-  finish(candidate, plan.largest_inverted_share(), mending, progress);
+  finish(candidate, plan, mending, progress);
   return candidate;
 }
 
@@ -176,43 +203,6 @@ Candidate best_by_lattice(const PreparedScanPointer& scan, const SizingOptions& 
   return best.mesh.triangles.empty() ? failed : best;
 }
 
-// Whether a part came out far from where it was. The bound is above that of the default job.
-bool is_far(const Candidate& candidate) {
-  constexpr double largest_deviation = 0.003;  // of a body's diagonal
-  const Components bodies = find_components(candidate.mesh);
-  const std::vector<double> diagonal = diagonals(candidate.mesh, bodies);
-  for (std::size_t f = 0; f < candidate.faces(); ++f)
-    if (candidate.fit.largest_distance_of_face[f] >
-        largest_deviation * diagonal[bodies.of_vertex[candidate.mesh.triangles[f][0]]])
-      return true;
-  return false;
-}
-
-// What isotropic remeshing reaches on parts, and more.
-bool is_ill_shaped(const Candidate& candidate) {
-  constexpr double worst_mean_edge_ratio = 1.25;
-  return measure_triangles(candidate.mesh).edge_ratio.mean > worst_mean_edge_ratio;
-}
-
-// The smallest angle but for those between two creases, with where those below the limit are.
-double smallest_angle_beside_creases_deg(const Candidate& candidate, double limit_deg, std::vector<Vec3>& below) {
-  const SurfaceMesh& mesh = candidate.mesh;
-  const std::vector<FeatureEdge> creases = edges_of(candidate.net);
-  const auto is_crease = [&](std::uint32_t a, std::uint32_t b) {
-    return std::binary_search(creases.begin(), creases.end(), feature_edge(a, b));
-  };
-  double smallest = 60;
-  for (const Triangle& t : mesh.triangles)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t v = t[k], next = t[(k + 1) % 3], last = t[(k + 2) % 3];
-      const double angle = angle_deg(mesh.vertices[v], mesh.vertices[next], mesh.vertices[last]);
-      if (angle >= std::max(smallest, limit_deg) || (is_crease(v, next) && is_crease(v, last))) continue;
-      smallest = std::min(smallest, angle);
-      if (angle < limit_deg) below.push_back(mesh.vertices[v]);
-    }
-  return smallest;
-}
-
 // Shorter edges around places where a surface came out badly.
 void shorten_around(const std::vector<Vec3>& bad, const SurfaceMesh& scan, double gradation,
                     std::vector<double>& length) {
@@ -230,16 +220,13 @@ constexpr double poor_angle_deg = 15;
 // Solvers warn of smaller ones; then contractions may do better.
 constexpr double usable_angle_deg = 5;
 
-bool is_usable(const Candidate& candidate) {
-  std::vector<Vec3> bad;
-  return smallest_angle_beside_creases_deg(candidate, 0, bad) >= usable_angle_deg;
-}
-
-// Whether its smallest angle is no smaller, or no poor one.
+// Whether its smallest angle is no smaller, or no poor one; usable where the other failed.
 bool is_as_well_shaped(const Candidate& candidate, const Candidate& other) {
   std::vector<Vec3> bad;
+  if (!candidate.failure.empty()) return false;
   return smallest_angle_beside_creases_deg(candidate, 0, bad) >=
-         std::min(poor_angle_deg, smallest_angle_beside_creases_deg(other, 0, bad));
+         (other.failure.empty() ? std::min(poor_angle_deg, smallest_angle_beside_creases_deg(other, 0, bad))
+                                : usable_angle_deg);
 }
 
 // Where the lattice gives way: contractions towards the same sizing, none of which makes faces meet, then the same
@@ -271,7 +258,7 @@ Candidate by_contraction(const PreparedScanPointer& prepared, const SizingOption
   if (plan.within_deviation) fit.hold_faces_below = 1;
   optimise_shape_and_fit(fitted.mesh, scan.reference(), fit, progress);
   const std::vector<Vec3> targets = fitted.mesh.vertices;
-  finish(fitted, plan.largest_inverted_share(), {}, progress);
+  finish(fitted, plan, {}, progress);
   if (fitted.failure.empty()) return fitted;
 
   SurfaceMesh near_fit = contracted.mesh;
@@ -311,8 +298,9 @@ PreparedScanPointer without_short_creases(const Candidate& failed) {
 // ones around, with smaller triangles, or without any.
 Candidate with_fewer_creases(Candidate failed, SizingOptions sizing, const FitPlan& plan, const Progress& progress) {
   constexpr int most_trials = 3;
-  constexpr int most_larger = 1;  // times
-  constexpr double growth = 1.6;  // of the number of triangles
+  constexpr int most_larger = 1;            // times
+  constexpr double growth = 1.6;            // of the number of triangles
+  constexpr std::size_t many_failed = 100;  // places; of few, some may be gone by chance
   const double wanted = sizing.triangles;
   PreparedScanPointer scan = failed.scan;
   int larger = 0;
@@ -324,8 +312,11 @@ Candidate with_fewer_creases(Candidate failed, SizingOptions sizing, const FitPl
     }
     scan = fewer;
     if (trial == most_trials || !scan->has_creases()) break;
+    const std::size_t before = failed.failed_at.size();
     failed = best_by_lattice(scan, sizing, plan, progress);
     if (failed.failure.empty()) return failed;
+    // Where hardly fewer places fail, those that are left would fail again.
+    if (2 * failed.failed_at.size() > before && before > many_failed) break;
   }
   sizing.triangles = wanted;
   return best_by_lattice(with_creases(scan, {}), sizing, plan, progress);
@@ -343,7 +334,7 @@ void refuse_failed(const Candidate& candidate, double triangles) {
 }  // namespace
 
 Candidate make_surface(const PreparedScanPointer& scan, const SizingOptions& sizing, const SimplifyOptions& options,
-                       Effort effort, bool may_go_by_shape, const Progress& progress) {
+                       Effort effort, const WaysOut& ways, const Progress& progress) {
   FitPlan plan = plan_of(effort);
   plan.within_deviation = std::holds_alternative<LargestDeviation>(options.size);
   if (options.method == SimplifyMethod::collapse) {
@@ -354,27 +345,26 @@ Candidate make_surface(const PreparedScanPointer& scan, const SizingOptions& siz
   Candidate candidate = best_by_lattice(scan, sizing, plan, progress);
   const bool failed = !candidate.failure.empty();
   // A deviation asks for shorter edges itself.
-  if (may_go_by_shape && !plan.within_deviation) {
+  if (ways.by_shape && !plan.within_deviation) {
     const bool lost_shape = failed || is_far(candidate);
     if ((lost_shape || is_ill_shaped(candidate)) && is_part(scan->given)) try {
         Candidate by_shape =
             make_surface_by_shape(*scan, sizing, options, effort, shape_budget(sizing.triangles, lost_shape),
                                   failed ? progress : progress.for_improvement());
-        if (by_shape.failure.empty() && (failed ? is_usable(by_shape) : is_as_well_shaped(by_shape, candidate)))
-          return by_shape;
+        if (is_as_well_shaped(by_shape, candidate)) return by_shape;
       } catch (const OutOfTime&) {
         if (failed) throw;
       }
   }
   if (!failed) return candidate;
   if (scan->has_creases()) candidate = with_fewer_creases(std::move(candidate), sizing, plan, progress);
-  if (!candidate.failure.empty()) {
+  if (!candidate.failure.empty() && ways.contraction) {
     Candidate contracted = by_contraction(candidate.scan, sizing, plan, progress);
     contracted.fallback_reason = std::move(candidate.failure);
     contracted.failed_at = std::move(candidate.failed_at);
     candidate = std::move(contracted);
+    refuse_failed(candidate, sizing.triangles);
   }
-  refuse_failed(candidate, sizing.triangles);
   return candidate;
 }
 
@@ -405,10 +395,10 @@ Candidate make_surface_by_shape(const PreparedScan& scan, const SizingOptions& s
     double angle_deg = -1;
     std::vector<Vec3> bad = candidate.failed_at;
     if (candidate.failure.empty()) angle_deg = smallest_angle_beside_creases_deg(candidate, poor_angle_deg, bad);
-    if (trial == 0 || angle_deg > best_angle_deg) {
-      best = std::move(candidate);
-      best_angle_deg = angle_deg;
-    }
+    // The next ones would do no better than one that does not.
+    if (trial > 0 && (angle_deg < best_angle_deg || (angle_deg < 0 && bad.size() >= best.failed_at.size()))) break;
+    best = std::move(candidate);
+    best_angle_deg = angle_deg;
     if (angle_deg >= poor_angle_deg || bad.empty()) break;
     shorten_around(bad, by_shape.scan->mesh, asked.gradation, by_shape.length);
   }

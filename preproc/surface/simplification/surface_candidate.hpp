@@ -35,12 +35,17 @@ struct Candidate {
   std::size_t feature_edges() const { return edges_of(net).size(); }
 };
 
-// By the method asked for or, where the lattice fails, by contraction. A part that does not keep its shape with the
-// wanted number of triangles gets more (make_surface_by_shape) where it may, unless a deviation is asked for. Where
-// triangles of this size are too large for the scan's creases, the candidate's scan has those that could be kept. Exact
-// volume, and nothing that crosses itself. Throws NotMeshable where no way is left.
+// What may be done where a lattice of the wanted size is no good.
+struct WaysOut {
+  bool by_shape = true;     // more triangles for a part that does not keep its shape, unless a deviation is asked for
+  bool contraction = true;  // instead of the lattice; else the candidate's failure says why it failed
+};
+
+// By the method asked for or, where the lattice fails, by contraction. Where triangles of this size are too large for
+// the scan's creases, the candidate's scan has those that could be kept. Exact volume, and nothing that crosses itself
+// unless `failure` says so. Throws NotMeshable where no way is left.
 Candidate make_surface(const PreparedScanPointer& scan, const SizingOptions& sizing, const SimplifyOptions& options,
-                       Effort effort, bool may_go_by_shape, const Progress& progress);
+                       Effort effort, const WaysOut& ways, const Progress& progress);
 
 // What a part's shape may take: triangles, about, and lattices. Three times the wanted triangles, or 8,000 but at most
 // forty times as many; where the part would be lost, 40,000 but at most a thousand times as many.

@@ -8,6 +8,7 @@
 #include "preproc/surface/mending/mend_places.hpp"
 #include "preproc/surface/simplification/deviation_at_scan.hpp"
 #include "preproc/surface/simplification/error_sizing.hpp"
+#include "preproc/surface/sizing/shape_lengths.hpp"
 #include "preproc/surface/sizing/size_limits.hpp"
 #include "quality/triangle_measures.hpp"
 
@@ -29,7 +30,7 @@ constexpr double most_growth = 3, few_triangles = 8000, most_growth_of_small = 4
 
 // Tries without a gain, one after the other, after which it is given up. Another lattice may turn out better by chance,
 // which is worth waiting for only where it costs little.
-constexpr std::size_t many_triangles = 5000, very_many_triangles = 20000;
+constexpr std::size_t many_triangles = 5000, very_many_triangles = 20000, most_for_shape = 50000;
 int patience(std::size_t triangles) {
   return triangles < many_triangles ? 3 : triangles < very_many_triangles ? 1 : 0;
 }
@@ -55,6 +56,8 @@ constexpr double few_triangles_of_part = 1000;
 // The share of faces too far that is left to the mending of places: more are cheaper mended by other lengths, all at
 // once. The second is for the last surface, when there is no other way.
 constexpr double few_beyond = 0.08, most_beyond = 0.15;
+// Of the faces: where more places are stuck, shorter edges in each cost more than another surface; and on the last one.
+constexpr double few_stuck = 0.002, most_stuck = 0.01;
 
 // Where triangles as large as the deviation allows are too large for the part's edges, smaller ones keep their shape.
 // The bound is where isotropic remeshing with kept edges ends (CGAL: 1.18 to 1.21 on plates, cubes and cylinders).
@@ -75,20 +78,8 @@ constexpr double room_for_places = 1.05;
 constexpr double error_renewal = 0.3;
 
 double share_beyond(const OneSidedDeviation& side, double distance) {
-  const auto beyond = std::count_if(side.upper.begin(), side.upper.end(), [&](double d) { return d > distance; });
-  return static_cast<double>(beyond) / static_cast<double>(side.upper.size());
-}
-
-// Shorter edges where the deviation is too large; it goes with their square. By at least `least` where patches were
-// tried there in vain.
-void shorten_by_deviation(const std::vector<double>& deviation, double distance, double least,
-                          std::vector<double>& length) {
-  constexpr double shortest_edge = 0.5;  // over the distance: shorter ones help nothing
-  for (std::size_t v = 0; v < length.size(); ++v) {
-    if (deviation[v] <= distance) continue;
-    const double factor = std::clamp(std::sqrt(distance / deviation[v]), most_shortening, least);
-    length[v] = std::max(factor * length[v], std::min(length[v], shortest_edge * distance));
-  }
+  return static_cast<double>(std::ranges::count_if(side.upper, [&](double d) { return d > distance; })) /
+         static_cast<double>(side.upper.size());
 }
 
 // What the edge ratio exceeds 1 by is taken to go with the square of the edges; a guess may be wrong.
@@ -131,7 +122,8 @@ SurfaceSearch::SurfaceSearch(PreparedScanPointer scan, WantedSurface wanted, con
 
 Candidate SurfaceSearch::run(const Progress& progress) {
   set_first_sizing(progress);
-  Trial latest = make(progress), best = latest;
+  most_to_mend_ = few_beyond;
+  Trial latest = make(!wanted_.deviation, progress), best = latest;
   first_work_ = work_;
   most_work_ = std::max(most_work * (wanted_.deviation ? first_work_ : wanted_.triangles), work_for_small);
   if (options_.method != SimplifyMethod::lattice) return std::move(best.candidate);
@@ -142,48 +134,56 @@ Candidate SurfaceSearch::run(const Progress& progress) {
     const SizingOptions sizing = sizing_;
     lower_lengths(latest);
     if (!ask_for_lower_lengths(most_triangles())) {
-      // Whoever asks again goes on from what was made.
-      length_ = std::move(length);
+      length_ = std::move(length);  // whoever asks again goes on from what was made
       sizing_ = sizing;
       if (!length_.empty()) sizing_.factors = length_;
       break;
     }
     try {
-      const bool by_shape = latest.gave_way() && wanted_.deviation && !was_by_shape;
+      const bool by_shape = latest.failed() && wanted_.deviation && !was_by_shape && is_part(scan_->given);
       was_by_shape |= by_shape;
-      latest = by_shape ? make_by_shape(progress.for_improvement()) : make(progress.for_improvement());
+      const Progress in_time = best.failed() ? progress : progress.for_improvement();
+      latest = by_shape ? make_by_shape(in_time) : make(best.gave_way() && !best.failed(), in_time);
     } catch (const NotMeshable&) {
       break;
     }
     in_vain = gains(latest, best) ? 0 : in_vain + 1;
     if (is_better(latest, best)) best = latest;
   }
-  if (wanted_.deviation && !holds(best) && best.share_beyond <= most_beyond)
-    progress.improve([&](const Progress& in_time) { bring_within(best, in_time); });
-  if (wanted_.deviation && wanted_.deviation->required && !holds(best))
+  if (best.failed()) best = make(true, progress);
+  if (!holds(best))
+    progress.improve([&](const Progress& in_time) {
+      // The places of a contraction are not what keeps it far.
+      if (best.share_beyond <= most_beyond && (!best.gave_way() || wanted_.deviation->required))
+        bring_within(best, wanted_.deviation->required ? 1 : most_stuck, in_time);
+      mend_shape(best, in_time);
+    });
+  if (!holds(best) && wanted_.deviation->required)
     throw NotMeshable({.what = "the deviation was not reached",
                        .where = {},
                        .value = std::to_string(best.candidate.largest_deviation) + " with " +
                                 count(static_cast<double>(best.candidate.faces())) + " triangles",
                        .limit = std::to_string(wanted_.deviation->distance),
                        .advice = "a larger --deviation, or --faces"});
-  last_ = std::move(best);
   most_work_ = std::max(most_work_, work_ + work_for_small);
-  return last_.candidate;
+  return (last_ = std::move(best)).candidate;
 }
 
 std::optional<Candidate> SurfaceSearch::run_again(std::span<const ShorterEdges> places, double most_triangles,
                                                   const Progress& progress) {
+  most_to_mend_ = few_beyond;
   if (length_.empty()) length_ = scan_->wanted_lengths(sizing_);
   shorten_around(places, scan_->mesh, length_);
   if (!ask_for_lower_lengths(most_triangles)) return {};
   try {
-    Trial made = make(progress);
-    if (made.gave_way() && !last_.gave_way()) {  // its elements would be worse yet
+    Trial made = make(last_.gave_way(), progress);
+    if (made.failed()) {
       lower_lengths(made);
       if (!ask_for_lower_lengths(most_triangles)) return {};
-      made = make(progress);
+      made = make(last_.gave_way(), progress);
+      if (made.failed()) return {};
     }
+    if (!holds(made)) mend_shape(made, progress);
     // What was asked for first comes before what is asked for now.
     if (holds(last_) && !holds(made)) return {};
     last_ = std::move(made);
@@ -213,17 +213,16 @@ std::vector<bool> SurfaceSearch::held() const {
 }
 
 void SurfaceSearch::set_first_sizing(const Progress& progress) {
-  const PreparedScan& scan = *scan_;
   if (wanted_.deviation) {
-    length_ = lengths_for_deviation(scan.mesh, wanted_.deviation->distance, options_.gradation,
-                                    scan.has_features() ? &scan.features().cut : nullptr);
+    length_ = lengths_for_deviation(scan_->mesh, wanted_.deviation->distance, options_.gradation,
+                                    scan_->has_features() ? &scan_->features().cut : nullptr);
     ask_for_lower_lengths(most_triangles());
     return;
   }
   if (options_.sizing == Sizing::error) {
     // A quick first surface shows where edges of the curvature's lengths come too far from the scan.
     sizing_.sizing = Sizing::curvature;
-    const Candidate first = make_surface(scan_, sizing_, options_, Effort::low, true, progress);
+    const Candidate first = make_surface(scan_, sizing_, options_, Effort::low, {}, progress);
     if (first.lengths_by_shape.empty()) {
       scan_ = first.scan;  // creases that it could not keep are not asked for again
       error_factors_ = scan_->by_vertex(error_factors(first.mesh, scan_->reference(), error_renewal),
@@ -242,18 +241,19 @@ void SurfaceSearch::set_first_sizing(const Progress& progress) {
   wanted_.triangles = sizing_.triangles;
 }
 
-SurfaceSearch::Trial SurfaceSearch::make(const Progress& progress) {
-  const bool is_first = work_ == 0;  // what the shape needs does not change from one surface to the next
+SurfaceSearch::Trial SurfaceSearch::make(bool may_contract, const Progress& progress) {
   progress.announce("a surface of about " + count(sizing_.triangles) + " triangles",
                     processor_seconds_of_surface(sizing_.triangles, scan_->mesh.triangles.size(), options_.effort));
-  return judged(make_surface(scan_, sizing_, options_, options_.effort, is_first, progress), progress);
+  // What the shape needs does not change from one surface to the next.
+  const WaysOut ways{.by_shape = work_ == 0, .contraction = may_contract};
+  return judged(make_surface(scan_, sizing_, options_, options_.effort, ways, progress), progress);
 }
 
 // Where no lattice of the wanted lengths came out: edges as short as the scan's shape needs.
 SurfaceSearch::Trial SurfaceSearch::make_by_shape(const Progress& progress) {
   Candidate made = make_surface_by_shape(*scan_, sizing_, options_, options_.effort,
                                          shape_budget(sizing_.triangles, true), progress);
-  return made.failure.empty() ? judged(std::move(made), progress) : make(progress);
+  return made.failure.empty() ? judged(std::move(made), progress) : make(false, progress);
 }
 
 SurfaceSearch::Trial SurfaceSearch::judged(Candidate candidate, const Progress& progress) {
@@ -265,11 +265,13 @@ SurfaceSearch::Trial SurfaceSearch::judged(Candidate candidate, const Progress& 
     wanted_.longest.clear();  // of another mesh's vertices, and in these lengths already
   }
   work_ += static_cast<double>(made.candidate.faces());
+  if (made.failed()) return made;
   if (wanted_.deviation)
     judge_deviation(made, progress);
   else if (made.candidate.method == SimplifyMethod::lattice)
     progress.improve([&](const Progress& in_time) { lower_worst(made.candidate, options_.effort, in_time); });
-  progress.improve([&](const Progress& in_time) { mend_shape(made, in_time); });
+  if (holds(made))  // else it is made again
+    progress.improve([&](const Progress& in_time) { mend_shape(made, in_time); });
   made.mean_edge_ratio = measure_triangles(made.candidate.mesh).edge_ratio.mean;
   const bool few = made.candidate.faces() < many_triangles && !wanted_.deviation;
   made.shape = find_shape_defects(made.candidate, few ? good_of_few_deg : good_of_many_deg);
@@ -277,11 +279,12 @@ SurfaceSearch::Trial SurfaceSearch::judged(Candidate candidate, const Progress& 
   return made;
 }
 
-void SurfaceSearch::judge_deviation(Trial& made, const Progress& progress) const {
+void SurfaceSearch::judge_deviation(Trial& made, const Progress& progress) {
   made.share_beyond = share_beyond(note_deviation(made).to_reference, wanted_.deviation->distance);
   made.mean_edge_ratio = measure_triangles(made.candidate.mesh).edge_ratio.mean;
-  if (!holds(made) && !made.gave_way() && is_shapely(made) && made.share_beyond <= few_beyond)
-    progress.improve([&](const Progress& in_time) { bring_within(made, in_time); });
+  if (holds(made) || made.gave_way() || !is_shapely(made) || made.share_beyond > most_to_mend_) return;
+  progress.improve([&](const Progress& in_time) { bring_within(made, few_stuck, in_time); });
+  if (!holds(made)) most_to_mend_ = made.share_beyond / 2;  // more of the kind cannot either
 }
 
 DeviationBound SurfaceSearch::note_deviation(Trial& made) const {
@@ -301,9 +304,8 @@ DeviationBound SurfaceSearch::note_deviation(Trial& made) const {
 }
 
 // What the edge lengths leave too far is brought near place by place; then the exact volume.
-void SurfaceSearch::bring_within(Trial& made, const Progress& progress) const {
-  // The shift that restores the volume takes a little of the deviation; where it takes more, once more with more left.
-  constexpr int trials = 3;
+void SurfaceSearch::bring_within(Trial& made, double share_to_yield, const Progress& progress) const {
+  constexpr int trials = 3;  // the shift that restores the volume takes a little of the deviation, or more
   constexpr double least_angle_deg = 30;
   // What the patches' fits must follow, over the deviation; no looser than mending is (MendOptions), and not so tight
   // that shape has no say.
@@ -316,6 +318,7 @@ void SurfaceSearch::bring_within(Trial& made, const Progress& progress) const {
   LocalRefinementOptions options;
   options.least_angle_deg = least_angle_deg;
   options.fidelity_of_diagonal = std::clamp(fidelity * deviation / scan.reference().diagonal, tightest, loosest);
+  options.most_to_yield = static_cast<std::size_t>(share_to_yield * static_cast<double>(made.candidate.faces()));
   for (int trial = 0; trial < trials; ++trial) {
     options.limit = (1 - for_volume * std::pow(2, trial)) * deviation;
     const BoundedRefinementResult refined =
@@ -355,7 +358,7 @@ void SurfaceSearch::mend_shape(Trial& made, const Progress& progress) const {
 }
 
 bool SurfaceSearch::holds(const Trial& made) const {
-  return !wanted_.deviation || made.candidate.largest_deviation <= wanted_.deviation->distance;
+  return !made.failed() && (!wanted_.deviation || made.candidate.largest_deviation <= wanted_.deviation->distance);
 }
 
 bool SurfaceSearch::is_shapely(const Trial& made) const {
@@ -364,15 +367,16 @@ bool SurfaceSearch::is_shapely(const Trial& made) const {
 
 bool SurfaceSearch::is_accepted(const Trial& made) const {
   if (!holds(made) || !is_shapely(made) || made.is_other_part) return false;
-  // Of very many triangles another lattice costs far more than the few places that it may mend are worth.
-  return made.shape.empty() ||
-         (!made.gave_way() && !made.has_many_bad() && made.candidate.faces() >= very_many_triangles);
+  // Of very many another lattice costs far more than the few places that it may mend are worth.
+  return made.shape.empty() || (!made.gave_way() && !made.has_many_bad() && made.candidate.faces() >= most_for_shape);
 }
 
 // Corners of the part stay about as they are; what else is bad decides then.
 bool SurfaceSearch::is_better(const Trial& made, const Trial& other) const {
+  if (made.failed() != other.failed()) return other.failed();
   if (made.is_other_part != other.is_other_part) return other.is_other_part;
   if (holds(made) != holds(other)) return holds(made);
+  if (!holds(made) && made.gave_way() != other.gave_way()) return other.gave_way();
   if (!holds(made)) return made.candidate.largest_deviation < other.candidate.largest_deviation;
   if (is_shapely(made) != is_shapely(other)) return is_shapely(made);
   if (std::abs(made.shape.sharpest() - other.shape.sharpest()) > worth_it_deg)
@@ -381,8 +385,10 @@ bool SurfaceSearch::is_better(const Trial& made, const Trial& other) const {
 }
 
 bool SurfaceSearch::gains(const Trial& made, const Trial& best) const {
+  if (made.failed() || best.failed()) return best.failed() && !made.failed();
   if (made.is_other_part != best.is_other_part) return best.is_other_part;
   if (holds(made) != holds(best)) return holds(made);
+  if (!holds(made) && made.gave_way() != best.gave_way()) return best.gave_way();
   if (!holds(made)) return made.candidate.largest_deviation < worth_it_of_deviation * best.candidate.largest_deviation;
   if (!is_shapely(best)) return made.mean_edge_ratio < best.mean_edge_ratio;
   return made.shape.sharpest() > best.shape.sharpest() + worth_it_deg;

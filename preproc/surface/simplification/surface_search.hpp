@@ -66,19 +66,20 @@ class SurfaceSearch {
     bool was_mended = false;             // place by place
     bool is_other_part = false;          // a small part without its edges is another part
 
-    bool gave_way() const { return !candidate.fallback_reason.empty(); }
+    bool failed() const { return !candidate.failure.empty(); }  // then there is no more to it than that
+    bool gave_way() const { return failed() || !candidate.fallback_reason.empty(); }
     bool lost_creases(const PreparedScan& scan) const { return scan.has_creases() && candidate.feature_edges() == 0; }
     bool has_many_bad() const;
     std::vector<ShorterEdges> failed_places() const;  // of the lattice; empty where they are many
   };
 
   void set_first_sizing(const Progress& progress);
-  Trial make(const Progress& progress);
+  Trial make(bool may_contract, const Progress& progress);
   Trial make_by_shape(const Progress& progress);
   Trial judged(Candidate candidate, const Progress& progress);
-  void judge_deviation(Trial& made, const Progress& progress) const;
+  void judge_deviation(Trial& made, const Progress& progress);
   DeviationBound note_deviation(Trial& made) const;
-  void bring_within(Trial& made, const Progress& progress) const;
+  void bring_within(Trial& made, double share_to_yield, const Progress& progress) const;
   void mend_shape(Trial& made, const Progress& progress) const;
   bool holds(const Trial& made) const;
   bool is_shapely(const Trial& made) const;
@@ -98,6 +99,7 @@ class SurfaceSearch {
   std::vector<double> error_factors_;
   std::vector<double> length_;  // per vertex of the scan, as asked for last; empty before something was lowered
   Trial last_;                  // given
+  double most_to_mend_ = 0;     // the share of faces too far that is left to the mending of places
   double work_ = 0;             // triangles made
   double first_work_ = 0;
   double most_work_ = 0;  // triangles that may be made

@@ -1,6 +1,7 @@
 #include "preproc/surface/sizing/shorter_edges.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace scan2fea {
 
@@ -32,6 +33,16 @@ void shorten_around(std::span<const ShorterEdges> places, const SurfaceMesh& sca
       if ((scan.vertices[v] - place.where.centre).squaredNorm() < place.where.radius * place.where.radius)
         factor = std::min(factor, place.factor);
     edge_length[v] *= factor;
+  }
+}
+
+void shorten_by_deviation(const std::vector<double>& deviation, double distance, double least,
+                          std::vector<double>& length) {
+  constexpr double shortest_edge = 0.5;  // over the distance: shorter ones help nothing
+  for (std::size_t v = 0; v < length.size(); ++v) {
+    if (deviation[v] <= distance) continue;
+    const double factor = std::clamp(std::sqrt(distance / deviation[v]), most_shortening, least);
+    length[v] = std::max(factor * length[v], std::min(length[v], shortest_edge * distance));
   }
 }
 

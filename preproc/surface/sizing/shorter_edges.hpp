@@ -32,4 +32,9 @@ std::vector<ShorterEdges> without_overlaps(std::span<const ShorterEdges> places)
 // vertices).
 void shorten_around(std::span<const ShorterEdges> places, const SurfaceMesh& scan, std::vector<double>& edge_length);
 
+// Shorter edges where the deviation is too large; it goes with their square. By at least `least` where patches were
+// tried there in vain. Both per vertex of the scan, model units.
+void shorten_by_deviation(const std::vector<double>& deviation, double distance, double least,
+                          std::vector<double>& length);
+
 }  // namespace scan2fea
