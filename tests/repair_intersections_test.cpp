@@ -62,6 +62,34 @@ TEST(RepairIntersections, ASpikeThroughTheFarSideIsCutWhereItIs) {
     }
 }
 
+// Where solids are united, a spike of one that passes through its own far side does not decide for the whole.
+TEST(RepairIntersections, SolidsWithSpikesThroughThemselvesAreUnited) {
+  const SurfaceMesh ball = analytic::sphere(1, 4);
+  for (const std::size_t v : {100, 700, 1500}) {
+    SurfaceMesh spiked = ball;
+    spiked.vertices[v] *= -3;
+    SurfaceMesh mesh = analytic::join(spiked, analytic::moved(ball, {1.2, 0.07, 0.03}));
+    SurfaceMesh wanted = analytic::join(ball, analytic::moved(ball, {1.2, 0.07, 0.03}));
+    repair(wanted);
+    repair(mesh);
+    expect_sound(mesh);
+    EXPECT_NEAR(enclosed_volume(mesh), enclosed_volume(wanted), 0.02 * enclosed_volume(wanted));
+  }
+}
+
+// A surface and its copy, with vertices of its own, turned round or not: in a time that grows with its size, not with
+// its square.
+TEST(RepairIntersections, ASurfaceAndItsCopyAreOne) {
+  const SurfaceMesh ball = analytic::sphere(1, 5);
+  for (const SurfaceMesh& copy : {ball, analytic::reversed(ball)}) {
+    SurfaceMesh mesh = analytic::join(ball, copy);
+    repair(mesh);
+    expect_sound(mesh);
+    EXPECT_EQ(mesh.triangles.size(), ball.triangles.size());
+    EXPECT_NEAR(enclosed_volume(mesh), enclosed_volume(ball), 1e-9);
+  }
+}
+
 TEST(RepairIntersections, FoldsOfNoiseAreSmoothedWithoutLosingFaces) {
   const SurfaceMesh noisy = analytic::noisy(analytic::sphere(1, 4), 0.02, 5);
   SurfaceMesh mesh = noisy;

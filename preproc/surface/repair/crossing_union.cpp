@@ -26,12 +26,12 @@ struct CrossingSet {
   std::vector<FacePair> pairs;
 };
 
-bool is_tangle(const CrossingSet& set) {
+bool is_tangle(const std::vector<FacePair>& pairs) {
   std::vector<std::uint32_t> faces;
-  for (const FacePair& pair : set.pairs) faces.insert(faces.end(), {pair.face, pair.other});
+  for (const FacePair& pair : pairs) faces.insert(faces.end(), {pair.face, pair.other});
   std::sort(faces.begin(), faces.end());
   const auto last = std::unique(faces.begin(), faces.end());
-  return set.pairs.size() > most_pairs_a_face * static_cast<std::size_t>(last - faces.begin());
+  return pairs.size() > most_pairs_a_face * static_cast<std::size_t>(last - faces.begin());
 }
 
 std::vector<CrossingSet> find_sets(const SurfaceMesh& mesh, const std::vector<Shell>& shells,
@@ -50,8 +50,9 @@ std::vector<CrossingSet> find_sets(const SurfaceMesh& mesh, const std::vector<Sh
   std::vector<CrossingSet> by_root(shells.size());
   for (const FacePair& pair : wanted) by_root[joined.find(shell_of_face[pair.face])].pairs.push_back(pair);
   for (std::uint32_t s = 0; s < shells.size(); ++s) by_root[joined.find(s)].shells.push_back(s);
-  std::erase_if(by_root,
-                [](const CrossingSet& set) { return set.pairs.empty() || (set.shells.size() == 1 && is_tangle(set)); });
+  std::erase_if(by_root, [](const CrossingSet& set) {
+    return set.pairs.empty() || (set.shells.size() == 1 && is_tangle(set.pairs));
+  });
   return by_root;
 }
 
@@ -107,6 +108,7 @@ struct Sides {
   int outside = 0;  // where its normal points
   int inside = 0;
   bool first = true;  // of the faces that lie upon one another there
+  bool operator==(const Sides&) const = default;
 };
 
 class Winding {
@@ -210,17 +212,47 @@ bool leave_one_of_each(Arrangement& arrangement) {
   return left < again.size();
 }
 
-// Triangles that hang together across edges of two, and the largest of each such piece.
-std::vector<std::uint32_t> largest_of_pieces(const SurfaceMesh& mesh, UnionFind& pieces) {
-  EdgeGroups(mesh).for_each([&](const std::uint32_t* first, const std::uint32_t* last) {
-    if (last - first == 2) pieces.unite(first[0] / 3, first[1] / 3);
+// The sides of a piece are those of most of these triangles of it: a spike, whose triangles are the largest, may pass
+// through its own shell, and slivers are too narrow to tell on which side of others they lie.
+std::vector<std::uint32_t> witnesses(const SurfaceMesh& mesh, std::vector<std::uint32_t> piece) {
+  constexpr std::size_t most = 9;
+  std::sort(piece.begin(), piece.end(), [&](std::uint32_t a, std::uint32_t b) {
+    const double area_a = area_of(mesh, a), area_b = area_of(mesh, b);
+    return area_a != area_b ? area_a > area_b : a < b;
   });
-  std::vector<std::uint32_t> largest(mesh.triangles.size(), no_face);  // by the piece's first
-  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
-    std::uint32_t& best = largest[pieces.find(f)];
-    if (best == no_face || area_of(mesh, f) > area_of(mesh, best)) best = f;
+  const std::size_t step = piece.size() / (2 * most);
+  if (step == 0) return {piece[0]};
+  std::vector<std::uint32_t> some;
+  for (std::size_t i = 0; i < most; ++i) some.push_back(piece[i * step]);
+  return some;
+}
+
+Sides sides_of_piece(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& piece, const Winding& winding) {
+  std::vector<Sides> seen;
+  for (const std::uint32_t f : witnesses(mesh, piece)) seen.push_back(winding.beside(f));
+  const auto votes = [&](const Sides& sides) { return std::count(seen.begin(), seen.end(), sides); };
+  return *std::max_element(seen.begin(), seen.end(),
+                           [&](const Sides& a, const Sides& b) { return votes(a) < votes(b); });
+}
+
+// Of each triangle the sides of its piece: triangles that hang together across edges of two.
+std::vector<Sides> find_sides(const SurfaceMesh& mesh, const Winding& winding) {
+  UnionFind joined(mesh.triangles.size());
+  EdgeGroups(mesh).for_each([&](const std::uint32_t* first, const std::uint32_t* last) {
+    if (last - first == 2) joined.unite(first[0] / 3, first[1] / 3);
+  });
+  std::vector<std::vector<std::uint32_t>> pieces(mesh.triangles.size());  // by their first
+  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) pieces[joined.find(f)].push_back(f);
+  std::vector<Sides> sides(mesh.triangles.size());
+  const double width = rounding_of(mesh);
+  for (const auto& piece : pieces) {
+    const bool is_wide =
+        std::any_of(piece.begin(), piece.end(), [&](std::uint32_t f) { return !is_sliver(mesh, f, width); });
+    if (!is_wide) continue;
+    const Sides of_piece = sides_of_piece(mesh, piece, winding);
+    for (const std::uint32_t f : piece) sides[f] = of_piece;
   }
-  return largest;
+  return sides;
 }
 
 struct Union {
@@ -237,17 +269,11 @@ std::optional<Union> unite(Part& part, bool may_be_inside_out) {
     SurfaceMesh& mesh = made.arrangement.mesh;
     bool changed = leave_one_of_each(made.arrangement);
     made.kept.assign(mesh.triangles.size(), 0);
-    const Winding winding(part.mesh, made.arrangement);
-    UnionFind pieces(mesh.triangles.size());
-    const std::vector<std::uint32_t> largest = largest_of_pieces(mesh, pieces);
-    std::vector<Sides> sides(mesh.triangles.size());
-    const double width = rounding_of(mesh);
-    for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f)
-      if (largest[f] != no_face && !is_sliver(mesh, largest[f], width)) sides[f] = winding.beside(largest[f]);
+    const std::vector<Sides> sides = find_sides(mesh, Winding(part.mesh, made.arrangement));
     std::vector<char> inside_out(part.mesh.triangles.size(), 0);  // by crossing
     std::vector<char> crossed = marks_of(part.pairs, part.mesh.triangles.size());
     for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
-      const Sides& of_piece = sides[pieces.find(f)];
+      const Sides& of_piece = sides[f];
       const std::uint32_t face = made.arrangement.face_of[f];
       if (std::min(of_piece.outside, of_piece.inside) < 0 && crossed[face]) inside_out[crossing[face]] = 1;
       if (!of_piece.first || (of_piece.outside > 0) == (of_piece.inside > 0)) continue;
@@ -260,6 +286,22 @@ std::optional<Union> unite(Part& part, bool may_be_inside_out) {
     std::erase_if(part.pairs, [&](const FacePair& pair) { return inside_out[crossing[pair.face]] != 0; });
   }
   return {};
+}
+
+// A union holds what its largest solid holds, but for cavities in it. One that does not is of shells that are crossed
+// by themselves in ways that no winding number sorts out.
+bool loses_volume(const Union& made, const std::vector<Shell>& shells, const CrossingSet& set) {
+  constexpr double most_lost = 0.01;
+  double largest = 0, cavities = 0;
+  for (const std::size_t s : set.shells) {
+    largest = std::max(largest, shells[s].volume);
+    cavities += std::min(0.0, shells[s].volume);
+  }
+  const SurfaceMesh& mesh = made.arrangement.mesh;
+  SurfaceMesh united{mesh.vertices, {}};
+  for (std::size_t f = 0; f < made.kept.size(); ++f)
+    if (made.kept[f]) united.triangles.push_back(mesh.triangles[f]);
+  return enclosed_volume(united) < (1 - most_lost) * largest + cavities;
 }
 
 // The corners may begin at another one.
@@ -278,7 +320,7 @@ bool unite_crossings(SurfaceMesh& mesh, std::span<const FacePair> pairs, Crossin
   for (const CrossingSet& set : find_sets(mesh, shells, pairs, which)) {
     Part part = take_part(mesh, shells, set);
     const std::optional<Union> made = unite(part, which == Crossings::between_shells);
-    if (!made) continue;
+    if (!made || (which == Crossings::between_shells && loses_volume(*made, shells, set))) continue;
     changed = true;
     const SurfaceMesh& cut = made->arrangement.mesh;
     const auto known = static_cast<std::uint32_t>(part.vertex.size());
