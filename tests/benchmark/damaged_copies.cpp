@@ -214,10 +214,9 @@ double t_junctions(SurfaceMesh& mesh, Random& random, double share, int most, do
     const std::uint32_t side = pick(random, 3);
     Triangle t = mesh.triangles[f];
     std::rotate(t.begin(), t.begin() + side, t.end());
-    std::vector<double> along;
-    for (std::uint32_t i = 0, count = 1 + pick(random, static_cast<std::size_t>(most)); i < count; ++i)
-      along.push_back(uniform(random, 0.15, 0.85));
-    std::sort(along.begin(), along.end());
+    std::vector<double> along;  // nowhere so near that the corners could be taken for one
+    const std::uint32_t count = 1 + pick(random, static_cast<std::size_t>(most));
+    for (std::uint32_t i = 0; i < count; ++i) along.push_back((i + uniform(random, 0.2, 0.8)) / count);
     std::uint32_t last = t[0];
     for (std::size_t i = 0; i <= along.size(); ++i) {
       std::uint32_t next = t[1];
