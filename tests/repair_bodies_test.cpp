@@ -79,7 +79,7 @@ TEST(RepairBodies, BoxesThatShareAFaceBecomeOneHoweverItIsCut) {
 // In 32-bit floats the planes of contact are the same, but the boxes of other sides may lie a step off.
 TEST(RepairBodies, BoxesTurnedInSpaceThatShareAFaceBecomeOne) {
   const Eigen::AngleAxisd turn(0.7, Vec3(1, 2, 3).normalized());
-  for (const double edge : {5.0})
+  for (const double edge : {20.0, 5.0, 7.0})
     for (const bool floats : {false, true}) {
       SCOPED_TRACE(std::to_string(edge) + (floats ? ", floats" : ", doubles"));
       SurfaceMesh mesh = analytic::join(box({0, 0, 0}, {20, 20, 20}, 5), box({20, 0, 0}, {50, 20, 20}, edge));

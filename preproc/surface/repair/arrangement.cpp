@@ -2,10 +2,13 @@
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 #include <CGAL/intersections.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <set>
@@ -35,16 +38,15 @@ struct Cuts {
 
 class Arranging {
  public:
-  explicit Arranging(const SurfaceMesh& mesh) : mesh_{mesh}, exact_(mesh.vertices.size()) {}
+  Arranging(const SurfaceMesh& mesh, double tolerance)
+      : mesh_{mesh}, tolerance_(tolerance), exact_(mesh.vertices.size()) {}
 
-  Arrangement run(std::span<const FacePair> pairs) {
-    for (const FacePair& pair : pairs)
-      for (const Index f : {pair.face, pair.other}) know_corners(f);
-    for (Triangle& t : mesh_.triangles)
-      for (Index& v : t) v = known(v);
+  // Nothing where what crosses a face, once moved by the tolerance, crosses anew.
+  std::optional<Arrangement> run(std::span<const FacePair> pairs) {
+    know_corners(pairs);
     for (const FacePair& pair : pairs)
       if (pair.face != pair.other) cross(pair.face, pair.other);
-    for (auto& [face, cuts] : cuts_) cross_lines(cuts);
+    for (auto& [face, cuts] : cuts_) cross_lines(face, cuts);
     share_points_of_edges();
 
     Arrangement result;
@@ -52,8 +54,8 @@ class Arranging {
       const auto cuts = cuts_.find(f);
       if (cuts == cuts_.end())
         result.mesh.triangles.push_back(mesh_.triangles[f]);
-      else
-        cut_face(f, cuts->second, result.mesh.triangles);
+      else if (!cut_face(f, cuts->second, result.mesh.triangles))
+        return {};
       result.face_of.resize(result.mesh.triangles.size(), f);
     }
     result.mesh.vertices = std::move(mesh_.vertices);
@@ -63,32 +65,58 @@ class Arranging {
   }
 
  private:
-  void know_corners(Index face) {
-    for (const Index v : mesh_.triangles[face]) {
-      if (exact_[v]) continue;
+  using Cell = std::array<std::int64_t, 3>;
+  using Point2 = Kernel::Point_2;
+  using Segment2 = Kernel::Segment_2;
+  using Triangle2 = Kernel::Triangle_2;
+
+  // Corners of the pairs' faces that lie in one place become the first of them.
+  void know_corners(std::span<const FacePair> pairs) {
+    std::set<Index> corners;
+    for (const FacePair& pair : pairs)
+      for (const Index f : {pair.face, pair.other})
+        corners.insert(mesh_.triangles[f].begin(), mesh_.triangles[f].end());
+    std::map<Index, Index> first;
+    for (const Index v : corners) {
       const Vec3& p = mesh_.vertices[v];
       exact_[v] = Point(p.x(), p.y(), p.z());
-      const auto [at, is_new] = index_of_.try_emplace(*exact_[v], v);
-      if (is_new) continue;
-      const Index first = std::min(v, at->second);
-      first_[std::max(v, at->second)] = first;
-      at->second = first;
+      if (const std::optional<Index> there = vertex_near(p))
+        first[v] = *there;
+      else
+        in_cell_[cell_of(p)].push_back(v);
     }
+    for (Triangle& t : mesh_.triangles)
+      for (Index& v : t)
+        if (const auto at = first.find(v); at != first.end()) v = at->second;
   }
 
-  // The first vertex in the same place.
-  Index known(Index v) const {
-    for (auto at = first_.find(v); at != first_.end(); at = first_.find(v)) v = at->second;
-    return v;
+  Cell cell_of(const Vec3& p) const {
+    Cell cell;
+    for (int k = 0; k < 3; ++k) cell[static_cast<std::size_t>(k)] = std::llround(p[k] / (2 * tolerance_));
+    return cell;
+  }
+
+  std::optional<Index> vertex_near(const Vec3& p) const {
+    const Cell cell = cell_of(p);
+    for (std::int64_t i = -1; i <= 1; ++i)
+      for (std::int64_t j = -1; j <= 1; ++j)
+        for (std::int64_t k = -1; k <= 1; ++k) {
+          const auto at = in_cell_.find({cell[0] + i, cell[1] + j, cell[2] + k});
+          if (at == in_cell_.end()) continue;
+          for (const Index v : at->second)
+            if ((mesh_.vertices[v] - p).norm() <= tolerance_) return v;
+        }
+    return {};
   }
 
   Index vertex_at(const Point& p) {
-    const auto [at, is_new] = index_of_.try_emplace(p, static_cast<Index>(mesh_.vertices.size()));
-    if (is_new) {
-      exact_.push_back(p);
-      mesh_.vertices.push_back({CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())});
-    }
-    return at->second;
+    const Vec3 place(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z()));
+    if (const std::optional<Index> there = vertex_near(place)) return *there;
+    const auto v = static_cast<Index>(mesh_.vertices.size());
+    exact_.push_back(p);
+    mesh_.vertices.push_back(place);
+    in_cell_[cell_of(place)].push_back(v);
+    return v;
   }
 
   const Point& exact(Index v) const { return *exact_[v]; }
@@ -98,19 +126,76 @@ class Arranging {
     return {exact(t[0]), exact(t[1]), exact(t[2])};
   }
 
+  // A face seen along the axis that its normal is nearest to.
+  class View {
+   public:
+    explicit View(const Kernel::Triangle_3& face) : plane_(face.supporting_plane()) {
+      const Kernel::Vector_3 normal = plane_.orthogonal_vector();
+      for (const int i : {1, 2})
+        if (CGAL::abs(normal[i]) > CGAL::abs(normal[axis_])) axis_ = i;
+      is_from_below_ = normal[axis_] < 0;
+    }
+    bool is_from_below() const { return is_from_below_; }
+    Point2 flat(const Point& p) const { return {p[(axis_ + 1) % 3], p[(axis_ + 2) % 3]}; }
+    Segment2 flat(const Kernel::Segment_3& s) const { return {flat(s.source()), flat(s.target())}; }
+    Triangle2 flat(const Kernel::Triangle_3& t) const { return {flat(t[0]), flat(t[1]), flat(t[2])}; }
+    Point on_plane(const Point2& p) const {
+      const Kernel::FT n[3]{plane_.a(), plane_.b(), plane_.c()};
+      const int u = (axis_ + 1) % 3, v = (axis_ + 2) % 3;
+      Kernel::FT x[3];
+      x[u] = p.x();
+      x[v] = p.y();
+      x[axis_] = -(n[u] * p.x() + n[v] * p.y() + plane_.d()) / n[axis_];
+      return {x[0], x[1], x[2]};
+    }
+
+   private:
+    Kernel::Plane_3 plane_;
+    int axis_ = 0;
+    bool is_from_below_ = false;
+  };
+
   void cross(Index f, Index g) {
     const Triangle &of_f = mesh_.triangles[f], &of_g = mesh_.triangles[g];
     if (is_collinear(mesh_.vertices, of_f) || is_collinear(mesh_.vertices, of_g)) return;
-    if (sorted(of_f) == sorted(of_g)) overlapping_.insert(overlapping_.end(), {{f, g}, {g, f}});
+    if (sorted(of_f) == sorted(of_g)) {
+      overlapping_.insert(overlapping_.end(), {{f, g}, {g, f}});
+      return;
+    }
+    if (lie_in_one_plane(mesh_, f, g, tolerance_)) {
+      if (area_vector(mesh_, of_f).squaredNorm() >= area_vector(mesh_, of_g).squaredNorm())
+        overlay(f, g);
+      else
+        overlay(g, f);
+      return;
+    }
     // Of a surface and its copy nearly all pairs end here: they meet in vertices that are one by now.
-    if (sorted(of_f) == sorted(of_g) || !faces_intersect(mesh_.vertices, of_f, of_g)) return;
+    if (!faces_intersect(mesh_.vertices, of_f, of_g)) return;
     const auto common = CGAL::intersection(triangle(f), triangle(g));
     if (!common) return;
-    std::vector<Point> outline;
-    if (const auto* p = boost::get<Point>(&*common)) outline = {*p};
-    if (const auto* s = boost::get<Kernel::Segment_3>(&*common)) outline = {s->source(), s->target()};
-    if (const auto* t = boost::get<Kernel::Triangle_3>(&*common)) outline = {t->vertex(0), t->vertex(1), t->vertex(2)};
-    if (const auto* polygon = boost::get<std::vector<Point>>(&*common)) outline = *polygon;
+    if (const auto* p = boost::get<Point>(&*common)) cut_both(f, g, {*p});
+    if (const auto* s = boost::get<Kernel::Segment_3>(&*common)) cut_both(f, g, {s->source(), s->target()});
+  }
+
+  // What two faces in one plane, that of the first, have in common.
+  void overlay(Index f, Index g) {
+    const View view(triangle(f));
+    const Triangle2 flat_f = view.flat(triangle(f)), flat_g = view.flat(triangle(g));
+    if (flat_g.is_degenerate()) return;
+    const auto common = CGAL::intersection(flat_f, flat_g);
+    if (!common) return;
+    std::vector<Point2> outline;
+    if (const auto* p = boost::get<Point2>(&*common)) outline = {*p};
+    if (const auto* s = boost::get<Segment2>(&*common)) outline = {s->source(), s->target()};
+    if (const auto* t = boost::get<Triangle2>(&*common)) outline = {t->vertex(0), t->vertex(1), t->vertex(2)};
+    if (const auto* polygon = boost::get<std::vector<Point2>>(&*common)) outline = *polygon;
+    std::vector<Point> corners;
+    for (const Point2& p : outline) corners.push_back(view.on_plane(p));
+    if (cut_both(f, g, corners) > 2) overlapping_.insert(overlapping_.end(), {{f, g}, {g, f}});
+  }
+
+  // Returns how many vertices the outline has.
+  std::size_t cut_both(Index f, Index g, const std::vector<Point>& outline) {
     std::vector<Index> vertices;
     for (const Point& p : outline) vertices.push_back(vertex_at(p));
     for (const Index face : {f, g}) {
@@ -120,16 +205,17 @@ class Arranging {
         if (vertices[i] != next) cuts_[face].lines.insert(edge_between(vertices[i], next));
       }
     }
-    if (outline.size() > 2) overlapping_.insert(overlapping_.end(), {{f, g}, {g, f}});
+    return std::set<Index>(vertices.begin(), vertices.end()).size();
   }
 
   // Vertices where lines on one face cross.
-  void cross_lines(Cuts& cuts) {
+  void cross_lines(Index face, Cuts& cuts) {
+    const View view(triangle(face));
     const std::vector<Edge> lines(cuts.lines.begin(), cuts.lines.end());
-    std::vector<Kernel::Segment_3> segments;
-    std::vector<CGAL::Bbox_3> boxes;
+    std::vector<Segment2> segments;
+    std::vector<CGAL::Bbox_2> boxes;
     for (const Edge& line : lines) {
-      segments.emplace_back(exact(line.first), exact(line.second));
+      segments.push_back(view.flat(Kernel::Segment_3(exact(line.first), exact(line.second))));
       boxes.push_back(segments.back().bbox());
     }
     for (std::size_t i = 0; i < lines.size(); ++i)
@@ -138,19 +224,21 @@ class Arranging {
         const auto common = CGAL::intersection(segments[i], segments[j]);
         if (!common) continue;
         // Lines that overlap end on one another, and those ends are vertices already.
-        if (const auto* p = boost::get<Point>(&*common)) cuts.points.insert(vertex_at(*p));
+        if (const auto* p = boost::get<Point2>(&*common)) cuts.points.insert(vertex_at(view.on_plane(*p)));
       }
   }
 
-  bool is_between(Index p, const Edge& edge) const {
-    return p != edge.first && p != edge.second &&
-           CGAL::collinear_are_strictly_ordered_along_line(exact(edge.first), exact(p), exact(edge.second));
+  bool is_on(Index p, const Edge& edge) const {
+    if (p == edge.first || p == edge.second) return false;
+    const double at = along(p, edge);
+    const Vec3 &a = mesh_.vertices[edge.first], &b = mesh_.vertices[edge.second];
+    return at > 0 && at < 1 && (a + at * (b - a) - mesh_.vertices[p]).norm() <= tolerance_;
   }
 
-  bool is_on(Index p, const Edge& edge) const {
-    const Point &a = exact(edge.first), &b = exact(edge.second);
-    return p != edge.first && p != edge.second && CGAL::do_overlap(exact(p).bbox(), Kernel::Segment_3(a, b).bbox()) &&
-           CGAL::collinear(a, exact(p), b) && is_between(p, edge);
+  double along(Index p, const Edge& edge) const {
+    const Vec3& a = mesh_.vertices[edge.first];
+    const Vec3 direction = mesh_.vertices[edge.second] - a;
+    return (mesh_.vertices[p] - a).dot(direction) / direction.squaredNorm();
   }
 
   // What ends at an edge of one face ends at that edge of its neighbour.
@@ -172,61 +260,99 @@ class Arranging {
       }
   }
 
-  // By a constrained Delaunay triangulation of the face, seen along the axis that its normal is nearest to.
-  void cut_face(Index f, const Cuts& cuts, std::vector<Triangle>& into) const {
-    using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<Index, Kernel>;
-    using Structure =
-        CGAL::Triangulation_data_structure_2<VertexBase, CGAL::Constrained_triangulation_face_base_2<Kernel>>;
-    using Triangulation =
-        CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::No_constraint_intersection_tag>;
-    const Triangle& t = mesh_.triangles[f];
-    const Kernel::Vector_3 normal = CGAL::normal(exact(t[0]), exact(t[1]), exact(t[2]));
-    int axis = 0;
-    for (const int i : {1, 2})
-      if (CGAL::abs(normal[i]) > CGAL::abs(normal[axis])) axis = i;
-    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+  using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<Index, Kernel>;
+  using FaceBase =
+      CGAL::Triangulation_face_base_with_info_2<bool, Kernel, CGAL::Constrained_triangulation_face_base_2<Kernel>>;
+  using Triangulation =
+      CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
+                                                 CGAL::No_constraint_intersection_tag>;
 
+  // The lines of a face, its sides included, between neighbouring vertices on them.
+  std::set<Edge> constraints(const Triangle& t, const Cuts& cuts) const {
+    std::set<Edge> lines(cuts.lines), parts;
+    for (std::size_t i = 0; i < 3; ++i) lines.insert(edge_between(t[i], t[(i + 1) % 3]));
+    for (const Edge& line : lines) {
+      std::vector<Index> row{line.first};
+      for (const Index p : cuts.points)
+        if (is_on(p, line)) row.push_back(p);
+      for (const Index p : t)
+        if (is_on(p, line) && !cuts.points.contains(p)) row.push_back(p);
+      std::sort(row.begin() + 1, row.end(), [&](Index p, Index q) { return along(p, line) < along(q, line); });
+      row.push_back(line.second);
+      for (std::size_t i = 0; i + 1 < row.size(); ++i) parts.insert(edge_between(row[i], row[i + 1]));
+    }
+    return parts;
+  }
+
+  // Faces beyond the constraints about the whole, where a side bends inwards by the tolerance.
+  static void mark_outside(Triangulation& triangulation) {
+    for (const auto face : triangulation.all_face_handles()) face->info() = false;
+    std::vector<Triangulation::Face_handle> outside{triangulation.infinite_face()};
+    outside[0]->info() = true;
+    while (!outside.empty()) {
+      const auto face = outside.back();
+      outside.pop_back();
+      for (int i = 0; i < 3; ++i) {
+        const auto next = face->neighbor(i);
+        if (next->info() || face->is_constrained(i)) continue;
+        next->info() = true;
+        outside.push_back(next);
+      }
+    }
+  }
+
+  // By a constrained Delaunay triangulation.
+  bool cut_face(Index f, const Cuts& cuts, std::vector<Triangle>& into) const {
+    const Triangle& t = mesh_.triangles[f];
+    const View view(triangle(f));
     Triangulation triangulation;
     std::map<Index, Triangulation::Vertex_handle> handle;
     std::set<Index> points(cuts.points);
     points.insert(t.begin(), t.end());
     for (const Index p : points) {
-      handle[p] = triangulation.insert(Kernel::Point_2(exact(p)[u], exact(p)[v]));
+      handle[p] = triangulation.insert(view.flat(exact(p)));
       handle[p]->info() = p;
     }
-    std::set<Edge> lines(cuts.lines);
-    for (std::size_t i = 0; i < 3; ++i) lines.insert(edge_between(t[i], t[(i + 1) % 3]));
-    std::set<Edge> constraints;  // each once, where lines overlap
-    for (const Edge& line : lines) {
-      std::vector<Index> row{line.first};
-      for (const Index p : points)
-        if (is_on(p, line)) row.push_back(p);
-      row.push_back(line.second);
-      const Point& start = exact(line.first);
-      std::sort(row.begin(), row.end(),
-                [&](Index a, Index b) { return CGAL::has_smaller_distance_to_point(start, exact(a), exact(b)); });
-      for (std::size_t i = 0; i + 1 < row.size(); ++i) constraints.insert(edge_between(row[i], row[i + 1]));
+    if (triangulation.number_of_vertices() != points.size()) return false;
+    try {
+      for (const Edge& edge : constraints(t, cuts))
+        triangulation.insert_constraint(handle[edge.first], handle[edge.second]);
+    } catch (const Triangulation::Intersection_of_constraints_exception&) {
+      return false;
     }
-    for (const Edge& edge : constraints) triangulation.insert_constraint(handle[edge.first], handle[edge.second]);
+    mark_outside(triangulation);
     for (const auto face : triangulation.finite_face_handles()) {
+      if (face->info()) continue;
       Triangle part{face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()};
-      if (normal[axis] < 0) std::swap(part[1], part[2]);
+      if (view.is_from_below()) std::swap(part[1], part[2]);
       into.push_back(part);
     }
+    return true;
   }
 
   SurfaceMesh mesh_;
-  std::vector<std::optional<Point>> exact_;  // of the vertices of the pairs' faces, and of new ones
-  std::map<Point, Index> index_of_;          // of those
-  std::map<Index, Index> first_;             // of vertices in the same place as an earlier one
-  std::map<Index, Cuts> cuts_;               // by face
+  double tolerance_;
+  std::vector<std::optional<Point>> exact_;     // of the vertices of the pairs' faces, and of new ones
+  std::map<Cell, std::vector<Index>> in_cell_;  // of those
+  std::map<Index, Cuts> cuts_;                  // by face
   std::vector<std::pair<Index, Index>> overlapping_;
 };
 
 }  // namespace
 
-Arrangement arrange(const SurfaceMesh& mesh, std::span<const FacePair> pairs) {
-  return Arranging(mesh).run(pairs);
+bool lie_in_one_plane(const SurfaceMesh& mesh, std::uint32_t face, std::uint32_t other, double tolerance) {
+  const auto lies_in_plane_of = [&](const Triangle& s, const Triangle& t) {
+    const Vec3 normal = area_vector(mesh, t).normalized();
+    return std::all_of(s.begin(), s.end(), [&](std::uint32_t v) {
+      return std::abs(normal.dot(mesh.vertices[v] - mesh.vertices[t[0]])) <= tolerance;
+    });
+  };
+  const Triangle &s = mesh.triangles[face], &t = mesh.triangles[other];
+  return lies_in_plane_of(s, t) || lies_in_plane_of(t, s);
+}
+
+std::optional<Arrangement> arrange(const SurfaceMesh& mesh, std::span<const FacePair> pairs, double tolerance) {
+  return Arranging(mesh, tolerance).run(pairs);
 }
 
 }  // namespace scan2fea

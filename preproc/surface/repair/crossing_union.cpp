@@ -2,14 +2,18 @@
 
 #include "preproc/mesh/union_find.hpp"
 #include "preproc/surface/kernel/adjacency.hpp"
+#include "preproc/surface/kernel/components.hpp"
 #include "preproc/surface/repair/arrangement.hpp"
 #include "preproc/surface/repair/face_marks.hpp"
 #include "preproc/surface/repair/shells.hpp"
 #include "preproc/surface/repair/solid_angle.hpp"
 #include "preproc/surface/repair/soup_adjacency.hpp"
 
+#include <CGAL/box_intersection_d.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace scan2fea {
@@ -84,6 +88,35 @@ Part take_part(const SurfaceMesh& mesh, const std::vector<Shell>& shells, const 
   for (const FacePair& pair : set.pairs)
     part.pairs.push_back({index(part.face, pair.face), index(part.face, pair.other)});
   return part;
+}
+
+// Within this distance things count as being in the same place: four steps of 32-bit floats, as which most files store
+// coordinates. Solids that touch along faces touch within such steps wherever they lie in space.
+double tolerance_of(const SurfaceMesh& mesh) {
+  return 2 * std::numeric_limits<float>::epsilon() * bounding_box(mesh.vertices).diagonal();
+}
+
+// Adds pairs of faces of different shells that lie in one plane within the tolerance, whether they cross or not.
+void add_contacts(Part& part) {
+  using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::uint32_t>;
+  const SurfaceMesh& mesh = part.mesh;
+  const double tolerance = tolerance_of(mesh);
+  const Components shells = find_components(mesh);
+  std::vector<Box> boxes;
+  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+    const Triangle& t = mesh.triangles[f];
+    const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+    const Vec3 low = a.cwiseMin(b).cwiseMin(c).array() - tolerance,
+               high = a.cwiseMax(b).cwiseMax(c).array() + tolerance;
+    boxes.emplace_back(CGAL::Bbox_3(low.x(), low.y(), low.z(), high.x(), high.y(), high.z()), f);
+  }
+  CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
+    const std::uint32_t f = std::min(a.info(), b.info()), g = std::max(a.info(), b.info());
+    const bool apart = shells.of_vertex[mesh.triangles[f][0]] != shells.of_vertex[mesh.triangles[g][0]];
+    if (apart && lie_in_one_plane(mesh, f, g, tolerance)) part.pairs.push_back({f, g});
+  });
+  std::sort(part.pairs.begin(), part.pairs.end());
+  part.pairs.erase(std::unique(part.pairs.begin(), part.pairs.end()), part.pairs.end());
 }
 
 // Pairs that are one crossing, since their faces are the same or share a vertex: a number for each face of a pair.
@@ -261,10 +294,12 @@ struct Union {
 };
 
 // Leaves out crossings beyond which a surface is inside out, if it must not be. Nothing where none is left.
-std::optional<Union> unite(Part& part, bool may_be_inside_out) {
+std::optional<Union> unite(Part part, bool may_be_inside_out, double tolerance) {
   const std::vector<std::uint32_t> crossing = number_crossings(part);
   while (!part.pairs.empty()) {
-    Union made{arrange(part.mesh, part.pairs), {}};
+    std::optional<Arrangement> arranged = arrange(part.mesh, part.pairs, tolerance);
+    if (!arranged) return {};
+    Union made{std::move(*arranged), {}};
     join_close_vertices(made.arrangement);
     SurfaceMesh& mesh = made.arrangement.mesh;
     bool changed = leave_one_of_each(made.arrangement);
@@ -286,6 +321,21 @@ std::optional<Union> unite(Part& part, bool may_be_inside_out) {
     std::erase_if(part.pairs, [&](const FacePair& pair) { return inside_out[crossing[pair.face]] != 0; });
   }
   return {};
+}
+
+// Whether the surface of a union is closed: each edge has as many faces in one direction as in the other.
+bool is_closed(const Union& made) {
+  SurfaceMesh united;
+  for (std::size_t f = 0; f < made.kept.size(); ++f)
+    if (made.kept[f]) united.triangles.push_back(made.arrangement.mesh.triangles[f]);
+  united.vertices.resize(made.arrangement.mesh.vertices.size());
+  bool closed = true;
+  EdgeGroups(united).for_each([&](const std::uint32_t* first, const std::uint32_t* last) {
+    const auto forward =
+        std::count_if(first, last, [&](std::uint32_t h) { return start_vertex(united, h) < end_vertex(united, h); });
+    closed &= 2 * forward == last - first;
+  });
+  return closed;
 }
 
 // A union holds what its largest solid holds, but for cavities in it. One that does not is of shells that are crossed
@@ -319,8 +369,17 @@ bool unite_crossings(SurfaceMesh& mesh, std::span<const FacePair> pairs, Crossin
   bool changed = false;
   for (const CrossingSet& set : find_sets(mesh, shells, pairs, which)) {
     Part part = take_part(mesh, shells, set);
-    const std::optional<Union> made = unite(part, which == Crossings::between_shells);
-    if (!made || (which == Crossings::between_shells && loses_volume(*made, shells, set))) continue;
+    const bool between = which == Crossings::between_shells;
+    if (between) add_contacts(part);
+    std::optional<Union> made;
+    // Surfaces that cross at flat angles, as two scans of one part, lie within the tolerance over long ways: there only
+    // a smaller one tells what is on which side.
+    for (const double factor : {1.0, 1e-3, 1e-6}) {
+      made = unite(part, between, factor * tolerance_of(part.mesh));
+      if (made && between && loses_volume(*made, shells, set)) made.reset();
+      if (made && is_closed(*made)) break;
+    }
+    if (!made) continue;
     changed = true;
     const SurfaceMesh& cut = made->arrangement.mesh;
     const auto known = static_cast<std::uint32_t>(part.vertex.size());
