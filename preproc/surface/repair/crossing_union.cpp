@@ -28,6 +28,7 @@ constexpr std::size_t most_pairs_a_face = 8;
 struct CrossingSet {
   std::vector<std::size_t> shells;
   std::vector<FacePair> pairs;
+  std::vector<FacePair> own_pairs;  // in which one of them crosses itself, where others are wanted
 };
 
 bool is_tangle(const std::vector<FacePair>& pairs) {
@@ -43,16 +44,18 @@ std::vector<CrossingSet> find_sets(const SurfaceMesh& mesh, const std::vector<Sh
   std::vector<std::uint32_t> shell_of_face(mesh.triangles.size());
   for (std::uint32_t s = 0; s < shells.size(); ++s)
     for (const std::uint32_t f : shells[s].faces) shell_of_face[f] = s;
-  std::vector<FacePair> wanted;
+  std::vector<FacePair> wanted, others;
   UnionFind joined(shells.size());
   for (const FacePair& pair : pairs) {
     const std::uint32_t a = shell_of_face[pair.face], b = shell_of_face[pair.other];
-    if ((a != b) != (which == Crossings::between_shells)) continue;
-    wanted.push_back(pair);
-    joined.unite(a, b);
+    const bool is_wanted = (a != b) == (which == Crossings::between_shells);
+    (is_wanted ? wanted : others).push_back(pair);
+    if (is_wanted) joined.unite(a, b);
   }
   std::vector<CrossingSet> by_root(shells.size());
   for (const FacePair& pair : wanted) by_root[joined.find(shell_of_face[pair.face])].pairs.push_back(pair);
+  if (which == Crossings::between_shells)
+    for (const FacePair& pair : others) by_root[joined.find(shell_of_face[pair.face])].own_pairs.push_back(pair);
   for (std::uint32_t s = 0; s < shells.size(); ++s) by_root[joined.find(s)].shells.push_back(s);
   std::erase_if(by_root, [](const CrossingSet& set) {
     return set.pairs.empty() || (set.shells.size() == 1 && is_tangle(set.pairs));
@@ -64,7 +67,7 @@ std::vector<CrossingSet> find_sets(const SurfaceMesh& mesh, const std::vector<Sh
 struct Part {
   SurfaceMesh mesh;
   std::vector<std::uint32_t> vertex, face;  // of the whole, for each of its own
-  std::vector<FacePair> pairs;
+  std::vector<FacePair> pairs, own_pairs;
 };
 
 Part take_part(const SurfaceMesh& mesh, const std::vector<Shell>& shells, const CrossingSet& set) {
@@ -87,6 +90,8 @@ Part take_part(const SurfaceMesh& mesh, const std::vector<Shell>& shells, const 
   }
   for (const FacePair& pair : set.pairs)
     part.pairs.push_back({index(part.face, pair.face), index(part.face, pair.other)});
+  for (const FacePair& pair : set.own_pairs)
+    part.own_pairs.push_back({index(part.face, pair.face), index(part.face, pair.other)});
   return part;
 }
 
@@ -354,6 +359,29 @@ bool loses_volume(const Union& made, const std::vector<Shell>& shells, const Cro
   return enclosed_volume(united) < (1 - most_lost) * largest + cavities;
 }
 
+// The union that is closed, or else the last that was tried.
+template <class Predicate>
+std::optional<Union> unite_if_closed(Part& part, Crossings which, const Predicate& is_wrong) {
+  std::optional<Union> last;
+  const auto try_all = [&] {
+    // Surfaces that cross at flat angles, as two scans of one part, lie within the tolerance over long ways: there only
+    // a smaller one tells what is on which side.
+    for (const double factor : {1.0, 1e-3, 1e-6}) {
+      std::optional<Union> made = unite(part, which == Crossings::between_shells, factor * tolerance_of(part.mesh));
+      if (!made || is_wrong(*made)) continue;
+      last = std::move(made);
+      if (is_closed(*last)) return true;
+    }
+    return false;
+  };
+  if (try_all() || part.own_pairs.empty()) return last;
+  // Where a shell crosses another, it crosses itself as well.
+  part.pairs.insert(part.pairs.end(), part.own_pairs.begin(), part.own_pairs.end());
+  std::sort(part.pairs.begin(), part.pairs.end());
+  try_all();
+  return last;
+}
+
 // The corners may begin at another one.
 bool is_same(Triangle a, const Triangle& b) {
   for (int i = 0; i < 3 && a != b; ++i) std::rotate(a.begin(), a.begin() + 1, a.end());
@@ -369,16 +397,10 @@ bool unite_crossings(SurfaceMesh& mesh, std::span<const FacePair> pairs, Crossin
   bool changed = false;
   for (const CrossingSet& set : find_sets(mesh, shells, pairs, which)) {
     Part part = take_part(mesh, shells, set);
-    const bool between = which == Crossings::between_shells;
-    if (between) add_contacts(part);
-    std::optional<Union> made;
-    // Surfaces that cross at flat angles, as two scans of one part, lie within the tolerance over long ways: there only
-    // a smaller one tells what is on which side.
-    for (const double factor : {1.0, 1e-3, 1e-6}) {
-      made = unite(part, between, factor * tolerance_of(part.mesh));
-      if (made && between && loses_volume(*made, shells, set)) made.reset();
-      if (made && is_closed(*made)) break;
-    }
+    if (which == Crossings::between_shells) add_contacts(part);
+    const std::optional<Union> made = unite_if_closed(part, which, [&](const Union& tried) {
+      return which == Crossings::between_shells && loses_volume(tried, shells, set);
+    });
     if (!made) continue;
     changed = true;
     const SurfaceMesh& cut = made->arrangement.mesh;

@@ -20,13 +20,17 @@ enum class Crossings {
 // noisy scan, there is nothing to unite, and that crossing stays. So does the tangle of a shell with itself that has
 // more than eight pairs a face.
 //
+// Solids that touch along faces, within four steps of 32-bit floats, become one wherever they lie in space, as long as
+// any of their faces meet at all. A union that would lose volume of a solid is not made.
+//
 // `pairs` are the surface's intersecting pairs. Faces that nothing crosses stay where they are or go; new ones come
 // last. Vertices stay bit by bit; new ones, where shells cross, are rounded, which can make their faces cross again by
 // a rounding error. Returns whether anything changed. Precondition: closed, manifold, oriented; afterwards the surface
 // may have edges of four faces (where solids touch along an edge), and cracks as wide as rounding (where it left
 // slivers out of account).
 //
-// Costs the arrangement (see arrangement.hpp) and O(n) for each piece that the crossings part the surface into.
+// Costs the arrangement (see arrangement.hpp), two or three more where the first does not come out closed, and O(n) for
+// each piece that the crossings part the surface into.
 bool unite_crossings(SurfaceMesh& mesh, std::span<const FacePair> pairs, Crossings which, RepairResult& result);
 
 }  // namespace scan2fea
