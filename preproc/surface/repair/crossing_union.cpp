@@ -374,7 +374,7 @@ std::optional<Union> unite_if_closed(Part& part, Crossings which, const Predicat
     }
     return false;
   };
-  if (try_all() || part.own_pairs.empty()) return last;
+  if (try_all() || part.own_pairs.empty() || is_tangle(part.own_pairs)) return last;
   // Where a shell crosses another, it crosses itself as well.
   part.pairs.insert(part.pairs.end(), part.own_pairs.begin(), part.own_pairs.end());
   std::sort(part.pairs.begin(), part.pairs.end());
