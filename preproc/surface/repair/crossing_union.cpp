@@ -6,7 +6,7 @@
 #include "preproc/surface/repair/arrangement.hpp"
 #include "preproc/surface/repair/face_marks.hpp"
 #include "preproc/surface/repair/shells.hpp"
-#include "preproc/surface/repair/solid_angle.hpp"
+#include "preproc/surface/repair/sides_of_pieces.hpp"
 #include "preproc/surface/repair/soup_adjacency.hpp"
 
 #include <CGAL/box_intersection_d.h>
@@ -141,64 +141,6 @@ std::vector<std::uint32_t> number_crossings(const Part& part) {
   return number;
 }
 
-// How often the surface winds about points on either side of one of its faces; the same on both where nobody knows.
-struct Sides {
-  int outside = 0;  // where its normal points
-  int inside = 0;
-  bool first = true;  // of the faces that lie upon one another there
-  bool operator==(const Sides&) const = default;
-};
-
-class Winding {
- public:
-  Winding(const SurfaceMesh& surface, const Arrangement& arrangement) : surface_(surface), arrangement_(arrangement) {}
-
-  Sides beside(std::uint32_t triangle) const {
-    const std::uint32_t face = arrangement_.face_of[triangle];
-    const Vec3 p = centre_of(arrangement_.mesh, triangle);
-    const Vec3 normal = area_vector(surface_, surface_.triangles[face]);
-    std::vector<std::uint32_t> here{face};
-    const auto& overlapping = arrangement_.overlapping;
-    for (auto at = std::lower_bound(overlapping.begin(), overlapping.end(), std::pair(face, 0U));
-         at != overlapping.end() && at->first == face; ++at)
-      if (covers(at->second, p, normal)) here.push_back(at->second);
-    std::sort(here.begin(), here.end());
-    here.erase(std::unique(here.begin(), here.end()), here.end());
-
-    double of_others = 0;
-    for (std::uint32_t f = 0; f < surface_.triangles.size(); ++f)
-      if (!std::binary_search(here.begin(), here.end(), f))
-        of_others += winding_of_triangle(surface_, surface_.triangles[f], p);
-    double step = 0;  // from outside to inside
-    for (const std::uint32_t f : here) step += normal.dot(area_vector(surface_, surface_.triangles[f])) > 0 ? 1 : -1;
-    return {static_cast<int>(std::lround(of_others - step / 2)), static_cast<int>(std::lround(of_others + step / 2)),
-            here.front() == face};
-  }
-
- private:
-  // Whether a point of the face's plane lies within it.
-  bool covers(std::uint32_t face, const Vec3& p, const Vec3& normal) const {
-    const Triangle& t = surface_.triangles[face];
-    double low = 0, high = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Vec3 &a = surface_.vertices[t[i]], &b = surface_.vertices[t[(i + 1) % 3]];
-      const double side = (b - a).cross(p - a).dot(normal);
-      low = std::min(low, side);
-      high = std::max(high, side);
-    }
-    return low == 0 || high == 0;
-  }
-
-  const SurfaceMesh& surface_;
-  const Arrangement& arrangement_;
-};
-
-// What is narrower than this cannot be told from rounding: lines that should meet in a point, or lie upon each other,
-// meet in several points, and leave slivers between them.
-double rounding_of(const SurfaceMesh& mesh) {
-  return 1e-10 * bounding_box(mesh.vertices).diagonal();
-}
-
 // Vertices that rounding alone keeps apart become one.
 void join_close_vertices(Arrangement& arrangement) {
   SurfaceMesh& mesh = arrangement.mesh;
@@ -219,14 +161,6 @@ void join_close_vertices(Arrangement& arrangement) {
   }
   mesh.triangles.resize(kept);
   arrangement.face_of.resize(kept);
-}
-
-bool is_sliver(const SurfaceMesh& mesh, std::uint32_t face, double width) {
-  const Triangle& t = mesh.triangles[face];
-  double longest = 0;
-  for (std::size_t i = 0; i < 3; ++i)
-    longest = std::max(longest, (mesh.vertices[t[i]] - mesh.vertices[t[(i + 1) % 3]]).norm());
-  return 2 * area_of(mesh, face) < width * longest;
 }
 
 // Leaves one of the triangles on the same three vertices, that of the first face. Returns whether any went.
@@ -250,49 +184,6 @@ bool leave_one_of_each(Arrangement& arrangement) {
   return left < again.size();
 }
 
-// The sides of a piece are those of most of these triangles of it: a spike, whose triangles are the largest, may pass
-// through its own shell, and slivers are too narrow to tell on which side of others they lie.
-std::vector<std::uint32_t> witnesses(const SurfaceMesh& mesh, std::vector<std::uint32_t> piece) {
-  constexpr std::size_t most = 9;
-  std::sort(piece.begin(), piece.end(), [&](std::uint32_t a, std::uint32_t b) {
-    const double area_a = area_of(mesh, a), area_b = area_of(mesh, b);
-    return area_a != area_b ? area_a > area_b : a < b;
-  });
-  const std::size_t step = piece.size() / (2 * most);
-  if (step == 0) return {piece[0]};
-  std::vector<std::uint32_t> some;
-  for (std::size_t i = 0; i < most; ++i) some.push_back(piece[i * step]);
-  return some;
-}
-
-Sides sides_of_piece(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& piece, const Winding& winding) {
-  std::vector<Sides> seen;
-  for (const std::uint32_t f : witnesses(mesh, piece)) seen.push_back(winding.beside(f));
-  const auto votes = [&](const Sides& sides) { return std::count(seen.begin(), seen.end(), sides); };
-  return *std::max_element(seen.begin(), seen.end(),
-                           [&](const Sides& a, const Sides& b) { return votes(a) < votes(b); });
-}
-
-// Of each triangle the sides of its piece: triangles that hang together across edges of two.
-std::vector<Sides> find_sides(const SurfaceMesh& mesh, const Winding& winding) {
-  UnionFind joined(mesh.triangles.size());
-  EdgeGroups(mesh).for_each([&](const std::uint32_t* first, const std::uint32_t* last) {
-    if (last - first == 2) joined.unite(first[0] / 3, first[1] / 3);
-  });
-  std::vector<std::vector<std::uint32_t>> pieces(mesh.triangles.size());  // by their first
-  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) pieces[joined.find(f)].push_back(f);
-  std::vector<Sides> sides(mesh.triangles.size());
-  const double width = rounding_of(mesh);
-  for (const auto& piece : pieces) {
-    const bool is_wide =
-        std::any_of(piece.begin(), piece.end(), [&](std::uint32_t f) { return !is_sliver(mesh, f, width); });
-    if (!is_wide) continue;
-    const Sides of_piece = sides_of_piece(mesh, piece, winding);
-    for (const std::uint32_t f : piece) sides[f] = of_piece;
-  }
-  return sides;
-}
-
 struct Union {
   Arrangement arrangement;
   std::vector<char> kept;  // per triangle of it
@@ -309,7 +200,7 @@ std::optional<Union> unite(Part part, bool may_be_inside_out, double tolerance) 
     SurfaceMesh& mesh = made.arrangement.mesh;
     bool changed = leave_one_of_each(made.arrangement);
     made.kept.assign(mesh.triangles.size(), 0);
-    const std::vector<Sides> sides = find_sides(mesh, Winding(part.mesh, made.arrangement));
+    const std::vector<Sides> sides = find_sides(part.mesh, made.arrangement);
     std::vector<char> inside_out(part.mesh.triangles.size(), 0);  // by crossing
     std::vector<char> crossed = marks_of(part.pairs, part.mesh.triangles.size());
     for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
