@@ -61,7 +61,8 @@ bool is_ours(const fs::path& root, const fs::path& source, const std::string& he
   return fs::exists(root / header) || fs::exists(root / source.parent_path() / header);
 }
 
-// Tests and examples use all folders but the command's; `build` and folders with a dot hold no sources of ours.
+// Tests and examples use all folders but the command's (fuzzing alone reads its configuration files); `build` and
+// folders with a dot hold no sources of ours.
 bool is_checked(const std::string& top) {
   return !top.starts_with('.') && top != "build";
 }
@@ -69,6 +70,7 @@ bool is_checked(const std::string& top) {
 bool is_allowed(const std::map<std::string, std::set<std::string>>& links, const std::string& folder,
                 const std::string& used) {
   if (used == folder) return true;
+  if (folder == "tests/fuzz") return true;
   if (folder.starts_with("tests") || folder.starts_with("examples")) return used != "preproc/command";
   const auto own = links.find(folder);
   return own != links.end() && own->second.contains(used);
