@@ -115,5 +115,36 @@ TEST(RepairHoles, KeepingHolesChangesNothingOfClosedSurfaces) {
   EXPECT_EQ(closed.vertices, kept.vertices);
 }
 
+// A corner that was torn off and moved, and a loose face between corners of others: of the hole's border some corners
+// lie on one another as the planar triangulation of holes sees them.
+TEST(RepairHoles, CornersOfABorderMayLieOnOneAnother) {
+  SurfaceMesh mesh{{{4, 1, 0},
+                    {7, 1, 0},
+                    {4, 2, 0},
+                    {7, 2, 0},
+                    {4, 1, 1},
+                    {7, 1, 1},
+                    {4, 2, 1},
+                    {7, 2, 1},
+                    {3, 3, 4},
+                    {7, 2, 1},
+                    {4, 2, 1},
+                    {4, 1 + 0x1p-18, 1}},
+                   {{0, 2, 3},
+                    {0, 3, 1},
+                    {11, 5, 7},
+                    {8, 9, 10},
+                    {0, 1, 5},
+                    {0, 5, 4},
+                    {2, 6, 7},
+                    {2, 7, 3},
+                    {0, 4, 6},
+                    {0, 6, 2},
+                    {1, 3, 7},
+                    {1, 7, 5}}};
+  repair(mesh, closing_all());
+  expect_sound(mesh);
+}
+
 }  // namespace
 }  // namespace scan2fea

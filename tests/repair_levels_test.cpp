@@ -30,6 +30,7 @@ TEST(RepairLevels, OffTakesWhatIsSoundAndNothingElse) {
   SurfaceMesh turned = box;
   std::swap(turned.triangles[0][0], turned.triangles[0][1]);
   EXPECT_THAT(message_of_failure(turned, off), HasSubstr("manifold"));
+  EXPECT_THAT(message_of_failure(analytic::reversed(box), off), HasSubstr("inside out"));
 }
 
 TEST(RepairLevels, GentleJoinsButMakesNothingUp) {

@@ -53,6 +53,11 @@ TEST(Repair, InsideOutBoxIsTurned) {
   EXPECT_NEAR(result.total_size(RepairKind::TurnedFaces), 6, 1e-12);
 }
 
+TEST(Repair, FacesOfNoAreaAloneAreRefused) {
+  const SurfaceMesh point{{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()}, {{0, 1, 2}}};
+  EXPECT_THAT(message_of_failure(point), HasSubstr("nothing is left"));
+}
+
 TEST(Repair, SingleFacesAreTurnedToAgreeWithTheirNeighbours) {
   SurfaceMesh mesh = unit_box(4);
   const SurfaceMesh original = mesh;

@@ -20,7 +20,8 @@ inline void require(bool holds, const char* what) {
 
 // An error that is of no use to whoever reads it is a finding, too.
 inline void require_told(const Error& error) {
-  require(!error.parts().what.empty() && !error.parts().where.empty(), "an error says neither what nor where");
+  if (error.parts().what.empty() || error.parts().where.empty())
+    fail(std::string("an error without what or where: ") + error.what());
   require(std::string(error.what()).find('\n') == std::string::npos, "an error takes more than a line");
 }
 

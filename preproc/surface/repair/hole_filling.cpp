@@ -10,6 +10,7 @@
 #include <CGAL/boost/graph/Euler_operations.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <numbers>
@@ -117,6 +118,34 @@ void fair_patch(Surface& surface, const std::vector<Vertex>& inner, const CGAL::
   for (std::size_t i = 0; i < inner.size(); ++i) surface.point(inner[i]) = before[i];
 }
 
+// Whether no two corners of a hole lie on one another where CGAL's planar triangulation looks at them. It projects them
+// along the mean of the normals of a fan from the first corner, turned to one side; where two then coincide, 5.5.1
+// reads through a null pointer. Linear but for a sort, and for corners in lines that lie in that direction.
+bool can_be_projected(const Surface& surface, const std::vector<Halfedge>& border) {
+  std::vector<Vec3> corners;
+  for (const Halfedge h : border) {
+    const auto& p = surface.point(surface.target(h));
+    corners.push_back({p.x(), p.y(), p.z()});
+  }
+  Vec3 normal = Vec3::Zero();
+  for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
+    const Vec3 n = (corners[i] - corners[0]).cross(corners[i + 1] - corners[0]);
+    const bool turned = n.x() < 0 || (n.x() == 0 && (n.y() < 0 || (n.y() == 0 && n.z() < 0)));
+    normal += turned ? -n : n;
+  }
+  if (normal.isZero()) return false;
+  normal.normalize();
+  const Vec3 u = normal.unitOrthogonal(), v = normal.cross(u);
+  const double rounding = 1e-12 * bounding_box(corners).diagonal();
+  std::vector<std::array<double, 2>> plane;
+  for (const Vec3& p : corners) plane.push_back({(p - corners[0]).dot(u), (p - corners[0]).dot(v)});
+  std::sort(plane.begin(), plane.end());
+  for (std::size_t i = 0; i < plane.size(); ++i)
+    for (std::size_t k = i + 1; k < plane.size() && plane[k][0] - plane[i][0] <= rounding; ++k)
+      if (std::abs(plane[k][1] - plane[i][1]) <= rounding) return false;
+  return true;
+}
+
 std::vector<Face> add_fan(Surface& surface, Halfedge hole) {
   Vec3 sum = Vec3::Zero();
   std::size_t count = 0;
@@ -153,8 +182,8 @@ Patch make_patch(const SurfaceMesh& mesh, const Twins& twins, const BorderLoop& 
   const auto face_count = static_cast<std::uint32_t>(surface.number_of_faces());
   std::vector<Face> faces;
   PMP::triangulate_hole(surface, around.hole, std::back_inserter(faces),
-                        CGAL::parameters::use_2d_constrained_delaunay_triangulation(true).do_not_use_cubic_algorithm(
-                            border.size() > most_edges_of_cubic_search));
+                        CGAL::parameters::use_2d_constrained_delaunay_triangulation(can_be_projected(surface, border))
+                            .do_not_use_cubic_algorithm(border.size() > most_edges_of_cubic_search));
   if (faces.empty()) faces = add_fan(surface, around.hole);
 
   if (shape != PatchShape::Triangles) {

@@ -66,6 +66,16 @@ void drop_flat_shells(SurfaceMesh& mesh, const RepairOptions& options, RepairRes
                      .advice = "--repair full"});
 }
 
+// Where no face has an area, or none of a solid, each step leaves out what it should, and all of it.
+void require_some(const SurfaceMesh& mesh, const RepairResult& result) {
+  if (!mesh.triangles.empty()) return;
+  throw NotMeshable({.what = "nothing is left of the surface: no part of it encloses a volume",
+                     .where = result.changes.empty() ? std::string() : error_text(result.changes.back().place),
+                     .value = std::to_string(result.changes.size()) + " changes",
+                     .limit = {},
+                     .advice = "a scan of all sides of the part"});
+}
+
 // What only the full repair mends.
 void require_closed(const SurfaceMesh& mesh) {
   const Twins twins = find_twins(mesh);
@@ -90,6 +100,12 @@ void require_sound(const SurfaceMesh& mesh, const SurfaceValidity& validity, boo
                       std::to_string(validity.misoriented_edges) + " edges of faces that are turned differently");
   if (!may_be_open) require_closed(mesh);
   require_no_crossings(mesh);
+  SurfaceMesh outwards = mesh;
+  RepairResult turned;
+  orient_shells(outwards, may_be_open, turned);
+  if (!turned.unchanged())
+    fail_of_level("the surface is turned inside out", turned.changes[0].place,
+                  "area " + error_text(turned.changes[0].size));
 }
 
 void mend_crossings(SurfaceMesh& mesh, const RepairOptions& options, RepairResult& result, const Progress& progress) {
@@ -137,6 +153,7 @@ RepairResult climb(SurfaceMesh& mesh, const RepairOptions& options, const Progre
   else
     mend_crossings(mesh, options, result, progress);
   drop_unused_vertices(mesh);
+  require_some(mesh, result);
   return result;
 }
 
