@@ -162,12 +162,17 @@ IntersectionRemoval remove_intersections(SurfaceMesh& mesh, RepairResult& result
     result.faces_removed += of_the_cut.faces_removed;
     const std::size_t kept = mesh.triangles.size();
     std::vector<BorderLoop> loops = find_border_loops(mesh, twins);
-    std::erase_if(loops, [&](const BorderLoop& loop) { return borders.share_an_edge(mesh, loop); });
+    const bool border_recedes =
+        std::erase_if(loops, [&](const BorderLoop& loop) { return borders.share_an_edge(mesh, loop); }) > 0;
     fill(mesh, twins, loops, rounds[i].shape, result);
 
-    std::vector<std::uint32_t> patches(mesh.triangles.size() - kept);
-    std::iota(patches.begin(), patches.end(), static_cast<std::uint32_t>(kept));
-    pairs = find_self_intersections(mesh, patches);
+    if (border_recedes) {  // and leaves bare the vertices that were split, where old faces now touch one another
+      pairs = find_self_intersections(mesh);
+    } else {
+      std::vector<std::uint32_t> patches(mesh.triangles.size() - kept);
+      std::iota(patches.begin(), patches.end(), static_cast<std::uint32_t>(kept));
+      pairs = find_self_intersections(mesh, patches);
+    }
   }
 }
 
