@@ -301,9 +301,13 @@ class Arranging {
     }
   }
 
-  // By a constrained Delaunay triangulation.
+  // By a constrained Delaunay triangulation. A face of no area, beside which others may be cut, stays as it is.
   bool cut_face(Index f, const Cuts& cuts, std::vector<Triangle>& into) const {
     const Triangle& t = mesh_.triangles[f];
+    if (is_collinear(mesh_.vertices, t)) {
+      into.push_back(t);
+      return true;
+    }
     const View view(triangle(f));
     Triangulation triangulation;
     std::map<Index, Triangulation::Vertex_handle> handle;
@@ -313,7 +317,7 @@ class Arranging {
       handle[p] = triangulation.insert(view.flat(exact(p)));
       handle[p]->info() = p;
     }
-    if (triangulation.number_of_vertices() != points.size()) return false;
+    if (triangulation.number_of_vertices() != points.size() || triangulation.dimension() < 2) return false;
     try {
       for (const Edge& edge : constraints(t, cuts))
         triangulation.insert_constraint(handle[edge.first], handle[edge.second]);
