@@ -7,7 +7,7 @@
 #include "preproc/surface/repair/face_marks.hpp"
 #include "preproc/surface/repair/shells.hpp"
 #include "preproc/surface/repair/sides_of_pieces.hpp"
-#include "preproc/surface/repair/soup_adjacency.hpp"
+#include "quality/validity.hpp"
 
 #include <CGAL/box_intersection_d.h>
 
@@ -41,9 +41,7 @@ bool is_tangle(const std::vector<FacePair>& pairs) {
 
 std::vector<CrossingSet> find_sets(const SurfaceMesh& mesh, const std::vector<Shell>& shells,
                                    std::span<const FacePair> pairs, Crossings which) {
-  std::vector<std::uint32_t> shell_of_face(mesh.triangles.size());
-  for (std::uint32_t s = 0; s < shells.size(); ++s)
-    for (const std::uint32_t f : shells[s].faces) shell_of_face[f] = s;
+  const std::vector<std::uint32_t> shell_of_face = shell_of_faces(shells, mesh.triangles.size());
   std::vector<FacePair> wanted, others;
   UnionFind joined(shells.size());
   for (const FacePair& pair : pairs) {
@@ -219,19 +217,12 @@ std::optional<Union> unite(Part part, bool may_be_inside_out, double tolerance) 
   return {};
 }
 
-// Whether the surface of a union is closed: each edge has as many faces in one direction as in the other.
-bool is_closed(const Union& made) {
-  SurfaceMesh united;
+SurfaceMesh surface_of(const Union& made) {
+  const SurfaceMesh& mesh = made.arrangement.mesh;
+  SurfaceMesh united{mesh.vertices, {}};
   for (std::size_t f = 0; f < made.kept.size(); ++f)
-    if (made.kept[f]) united.triangles.push_back(made.arrangement.mesh.triangles[f]);
-  united.vertices.resize(made.arrangement.mesh.vertices.size());
-  bool closed = true;
-  EdgeGroups(united).for_each([&](const std::uint32_t* first, const std::uint32_t* last) {
-    const auto forward =
-        std::count_if(first, last, [&](std::uint32_t h) { return start_vertex(united, h) < end_vertex(united, h); });
-    closed &= 2 * forward == last - first;
-  });
-  return closed;
+    if (made.kept[f]) united.triangles.push_back(mesh.triangles[f]);
+  return united;
 }
 
 // A union holds what its largest solid holds, but for cavities in it. One that does not is of shells that are crossed
@@ -243,11 +234,7 @@ bool loses_volume(const Union& made, const std::vector<Shell>& shells, const Cro
     largest = std::max(largest, shells[s].volume);
     cavities += std::min(0.0, shells[s].volume);
   }
-  const SurfaceMesh& mesh = made.arrangement.mesh;
-  SurfaceMesh united{mesh.vertices, {}};
-  for (std::size_t f = 0; f < made.kept.size(); ++f)
-    if (made.kept[f]) united.triangles.push_back(mesh.triangles[f]);
-  return enclosed_volume(united) < (1 - most_lost) * largest + cavities;
+  return enclosed_volume(surface_of(made)) < (1 - most_lost) * largest + cavities;
 }
 
 // The union that is closed, or else the last that was tried.
@@ -261,7 +248,7 @@ std::optional<Union> unite_if_closed(Part& part, Crossings which, const Predicat
       std::optional<Union> made = unite(part, which == Crossings::between_shells, factor * tolerance_of(part.mesh));
       if (!made || is_wrong(*made)) continue;
       last = std::move(made);
-      if (is_closed(*last)) return true;
+      if (encloses_volume(surface_of(*last))) return true;
     }
     return false;
   };

@@ -39,9 +39,7 @@ bool put_back_folds(SurfaceMesh& mesh, const std::vector<Vec3>& before, const Fa
 bool part_touching_shells(SurfaceMesh& mesh, const std::vector<FacePair>& pairs, RepairResult& result) {
   constexpr double of_diagonal = 1e-6;
   const std::vector<Shell> shells = find_shells(mesh);
-  std::vector<std::uint32_t> shell_of_face(mesh.triangles.size());
-  for (std::uint32_t s = 0; s < shells.size(); ++s)
-    for (const std::uint32_t f : shells[s].faces) shell_of_face[f] = s;
+  const std::vector<std::uint32_t> shell_of_face = shell_of_faces(shells, mesh.triangles.size());
   std::vector<Vec3> away(shells.size(), Vec3::Zero());
   for (const FacePair& pair : pairs) {
     const std::uint32_t a = shell_of_face[pair.face], b = shell_of_face[pair.other];

@@ -28,9 +28,7 @@ struct LargeHole {
 
 std::vector<std::optional<LargeHole>> find_large_holes(const SurfaceMesh& mesh, const std::vector<Shell>& shells,
                                                        const Twins& twins, double limit) {
-  std::vector<std::uint32_t> shell_of_face(mesh.triangles.size());
-  for (std::uint32_t s = 0; s < shells.size(); ++s)
-    for (const std::uint32_t f : shells[s].faces) shell_of_face[f] = s;
+  const std::vector<std::uint32_t> shell_of_face = shell_of_faces(shells, mesh.triangles.size());
   std::vector<std::optional<LargeHole>> large(shells.size());
   for (const BorderLoop& loop : find_border_loops(mesh, twins)) {
     const std::uint32_t s = shell_of_face[loop[0] / 3];

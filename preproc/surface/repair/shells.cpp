@@ -85,6 +85,13 @@ std::vector<Shell> find_shells(const SurfaceMesh& mesh, bool tell_open) {
   return shells;
 }
 
+std::vector<std::uint32_t> shell_of_faces(const std::vector<Shell>& shells, std::size_t face_count) {
+  std::vector<std::uint32_t> shell_of_face(face_count);
+  for (std::uint32_t s = 0; s < shells.size(); ++s)
+    for (const std::uint32_t f : shells[s].faces) shell_of_face[f] = s;
+  return shell_of_face;
+}
+
 void drop_shells(SurfaceMesh& mesh, const std::vector<Shell>& shells,
                  const std::vector<std::optional<RepairKind>>& reasons, RepairResult& result) {
   std::vector<char> of_face(mesh.triangles.size(), 0);

@@ -23,6 +23,9 @@ bool contains(const BoundingBox& outer, const BoundingBox& inner);
 // a sort of the edges.
 std::vector<Shell> find_shells(const SurfaceMesh& mesh, bool tell_open = false);
 
+// The shell of each of the surface's faces.
+std::vector<std::uint32_t> shell_of_faces(const std::vector<Shell>& shells, std::size_t face_count);
+
 // Removes the shells that have a reason to go and logs each under it.
 void drop_shells(SurfaceMesh& mesh, const std::vector<Shell>& shells,
                  const std::vector<std::optional<RepairKind>>& reasons, RepairResult& result);
