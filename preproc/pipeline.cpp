@@ -1,6 +1,8 @@
 #include "preproc/pipeline.hpp"
 
 #include "preproc/mesh/error.hpp"
+#include "preproc/mesh/error_text.hpp"
+#include "preproc/surface/kernel/canonical_frame.hpp"
 #include "preproc/surface/repair/solid_volume.hpp"
 #include "preproc/tetrahedra_search.hpp"
 #include "preproc/volume/mid_edge_nodes.hpp"
@@ -53,12 +55,6 @@ class StageLog {
   const StageListener& listener_;
 };
 
-std::string coordinates(const Vec3& p) {
-  char text[96];
-  std::snprintf(text, sizeof text, "(%.6g, %.6g, %.6g)", p.x(), p.y(), p.z());
-  return text;
-}
-
 // Of all changes of one kind.
 struct ChangeGroup {
   std::size_t count = 0;
@@ -75,7 +71,7 @@ std::string rounded(double value) {
 std::string describe(RepairKind kind, const ChangeGroup& group) {
   std::string text(name(kind));
   if (group.count > 1) text += ": " + std::to_string(group.count) + ", the largest";
-  text += " at " + coordinates(group.largest->place);
+  text += " at " + error_text(group.largest->place);
   if (group.largest->size > 0) text += ", size " + rounded(group.largest->size);
   if (group.area > 0) text += "; area " + rounded(group.area) + (group.count > 1 ? " together" : "");
   if (group.volume > 0) text += ", volume " + rounded(group.volume);
@@ -124,8 +120,11 @@ void describe(const EnrichResult& result, StageRecord& record) {
                     {"largest_height", result.largest_height}};
 }
 
+// Of what is made in another frame, the places in the scan's.
+using PlaceInScan = std::function<Vec3(const Vec3&)>;
+
 // What became of the sharp edges of the scan. Gates may name the figures, so that they are there even where all are 0.
-void describe_features(const SimplifyResult& result, StageRecord& record) {
+void describe_features(const SimplifyResult& result, const PlaceInScan& in_scan, StageRecord& record) {
   std::size_t unsupported = 0;
   for (const UnsupportedCreases& dropped : result.unsupported_creases) unsupported += dropped.edges;
   record.changes.emplace_back("feature_edges_before", static_cast<double>(result.feature_edges));
@@ -135,7 +134,8 @@ void describe_features(const SimplifyResult& result, StageRecord& record) {
   for (const UnsupportedCreases& dropped : result.unsupported_creases)
     record.remarks.push_back(std::to_string(dropped.edges) + " sharp edges in " + std::to_string(dropped.networks) +
                              (dropped.networks == 1 ? " place, " : " places, the longest ") + "at " +
-                             coordinates(dropped.place) + ", are not kept as creases: " + describe(dropped.fault));
+                             error_text(in_scan(dropped.place)) +
+                             ", are not kept as creases: " + describe(dropped.fault));
   if (result.feature_edges_too_fine > 0)
     record.remarks.push_back(
         std::to_string(result.feature_edges_too_fine) +
@@ -143,11 +143,11 @@ void describe_features(const SimplifyResult& result, StageRecord& record) {
   if (!result.feature_remark.empty()) record.remarks.push_back(result.feature_remark);
 }
 
-void describe(const SimplifyResult& result, const TargetSize& size, StageRecord& record) {
+void describe(const SimplifyResult& result, const TargetSize& size, const PlaceInScan& in_scan, StageRecord& record) {
   record.changes = {{"faces_before", static_cast<double>(result.faces_before)},
                     {"faces_after", static_cast<double>(result.faces_after)},
                     {"crossings_mended", static_cast<double>(result.crossings_mended)}};
-  describe_features(result, record);
+  describe_features(result, in_scan, record);
   if (!result.size_remark.empty()) record.remarks.push_back(result.size_remark);
   if (result.largest_deviation > 0) record.changes.emplace_back("largest_deviation", result.largest_deviation);
   const auto* aim = std::get_if<LargestDeviation>(&size);
@@ -160,20 +160,20 @@ void describe(const SimplifyResult& result, const TargetSize& size, StageRecord&
 }
 
 // Beside what came out, the best that the surface allows, and where it is set.
-void describe(const TetrahedralizeResult& result, StageRecord& record) {
+void describe(const TetrahedralizeResult& result, const PlaceInScan& in_scan, StageRecord& record) {
   record.changes = {{"tetrahedra", static_cast<double>(result.mesh.tetrahedra.size())},
                     {"tetrahedra_estimated", static_cast<double>(result.estimated_tetrahedra)},
                     {"nodes", static_cast<double>(result.mesh.nodes.size())},
                     {"surface_allows_min_dihedral_deg", result.bound.min_dihedral_deg},
                     {"surface_allows_scaled_jacobian", result.bound.scaled_jacobian}};
-  record.remarks = {"the surface bounds the dihedral angle at " + coordinates(result.bound.min_dihedral_at),
-                    "and the scaled Jacobian at " + coordinates(result.bound.scaled_jacobian_at)};
+  record.remarks = {"the surface bounds the dihedral angle at " + error_text(in_scan(result.bound.min_dihedral_at)),
+                    "and the scaled Jacobian at " + error_text(in_scan(result.bound.scaled_jacobian_at))};
 }
 
 // What was gained, and the same figures of the mesh that stands now as of the first.
-void describe(const RenewalResult& renewal, StageRecord& record) {
+void describe(const RenewalResult& renewal, const PlaceInScan& in_scan, StageRecord& record) {
   const FilledSurface& made = renewal.made;
-  if (renewal.gained()) describe(made.filled, record);
+  if (renewal.gained()) describe(made.filled, in_scan, record);
   record.changes.insert(record.changes.begin(), {{"surfaces_made", static_cast<double>(renewal.rounds)},
                                                  {"min_dihedral_before_deg", renewal.min_dihedral_before_deg},
                                                  {"min_dihedral_after_deg", renewal.min_dihedral_after_deg},
@@ -199,10 +199,11 @@ std::vector<WeakPlace> checked_for_solvers(const SurfaceMesh& surface, const Tet
   for (const WeakPlace& place : places)
     if (place.is_unusable && !is_told_only)
       throw NotMeshable({.what = "no solver takes the mesh that came out: " + place.what,
-                         .where = coordinates(place.at),
+                         .where = {},
                          .value = std::to_string(place.value),
                          .limit = "half a degree",
-                         .advice = "smaller triangles (--deviation, --faces), or --feature-angle off"});
+                         .advice = "smaller triangles (--deviation, --faces), or --feature-angle off",
+                         .at = place.at});
   return places;
 }
 
@@ -216,6 +217,108 @@ void note_left_out(const Progress& stage, const char* what, StageRecord& record,
   if (!stage.ran_short()) return;
   result.left_out.emplace_back(what);
   record.remarks.push_back("the time limit left out " + result.left_out.back());
+}
+
+// The stages that work on a scan in its own frame, so that the mesh is the same wherever the scan lies. Boxes and balls
+// of the user's are no part of it: with them, and where only tetrahedra are made, it stays where it is.
+class MeshMaker {
+ public:
+  MeshMaker(const SurfaceMesh& scan, SimplifyOptions& simplification, const PipelineOptions& options,
+            PipelineResult& result, StageLog& log)
+      : scan_(scan), simplification_(simplification), options_(options), result_(result), log_(log) {
+    place();
+  }
+
+  FilledSurface run(const Progress& progress);
+
+ private:
+  void place();
+  void simplify(const Progress& progress);
+  void tetrahedralize(const Progress& progress);
+  void bring_back();
+  const SurfaceMesh& scan() const { return placed_ ? *placed_ : scan_; }
+
+  const SurfaceMesh& scan_;
+  SimplifyOptions& simplification_;
+  const PipelineOptions& options_;
+  PipelineResult& result_;
+  StageLog& log_;
+  std::optional<CanonicalFrame> frame_;
+  std::optional<SurfaceMesh> placed_;
+  std::optional<Simplification> search_;
+  FilledSurface made_;
+  PlaceInScan in_scan_ = [this](const Vec3& p) { return frame_ ? frame_->place_of(p) : p; };
+};
+
+void MeshMaker::place() {
+  const SizeLimits& limits = simplification_.limits;
+  if (options_.simplify && simplification_.method == SimplifyMethod::lattice && limits.boxes.empty() &&
+      limits.balls.empty() && surface_area(scan_) > 0) {
+    frame_.emplace(scan_);
+    placed_ = frame_->placed(scan_);
+    if (simplification_.given_features)
+      for (Vec3& p : simplification_.given_features->points) p = frame_->to_frame(p);
+  }
+  // A bound is in parts of the box that everyone sees; an aim is the same however the scan lies, to the last bit.
+  const auto* bound = std::get_if<LargestDeviation>(&simplification_.size);
+  const bool is_aim = bound != nullptr && !bound->required;
+  simplification_.size = in_model_units(simplification_.size, bounding_box((is_aim ? scan() : scan_).vertices));
+}
+
+FilledSurface MeshMaker::run(const Progress& progress) {
+  try {
+    simplify(progress);
+    if (options_.tetrahedralize) tetrahedralize(progress);
+  } catch (Error& error) {
+    ErrorParts parts = error.parts();
+    if (parts.at) parts.at = in_scan_(*parts.at);
+    error.amend(std::move(parts));
+    throw;
+  }
+  bring_back();
+  return std::move(made_);
+}
+
+void MeshMaker::simplify(const Progress& progress) {
+  if (!options_.simplify) {
+    made_.surface = scan();
+    return;
+  }
+  log_.run("simplify", [&](StageRecord& record) {
+    search_.emplace(scan(), simplification_);
+    const Progress in_time = options_.tetrahedralize ? in_half_of_the_time(progress) : progress.until(progress.end());
+    made_.simplified = search_->run(made_.surface, in_time);
+    describe(made_.simplified, simplification_.size, in_scan_, record);
+    note_left_out(in_time, "better edge lengths and places of the surface", record, result_);
+    if (simplification_.given_features && simplification_.given_features->segments.empty())
+      record.remarks.emplace_back("the file of features has no lines: no edges are kept");
+  });
+}
+
+void MeshMaker::tetrahedralize(const Progress& progress) {
+  TetrahedralizeOptions tetrahedralization = *options_.tetrahedralize;
+  if (simplification_.limits.elements_across) need_nodes_in_walls(tetrahedralization);
+  log_.run("tetrahedralize", [&](StageRecord& record) {
+    const Progress in_time = progress.until(progress.end());
+    made_.filled = scan2fea::tetrahedralize(made_.surface, tetrahedralization, in_time);
+    describe(made_.filled, in_scan_, record);
+    note_left_out(in_time, "better tetrahedra", record, result_);
+  });
+  if (!search_ || !worth_renewing(simplification_, made_)) return;
+  log_.run("renewal", [&](StageRecord& record) {
+    const Progress in_time = progress.until(progress.end());
+    RenewalResult renewal = renew_where_poor(*search_, simplification_, tetrahedralization, std::move(made_), in_time);
+    describe(renewal, in_scan_, record);
+    note_left_out(in_time, "renewal of the surface around poor tetrahedra", record, result_);
+    made_ = std::move(renewal.made);
+  });
+}
+
+void MeshMaker::bring_back() {
+  if (!frame_) return;
+  frame_->bring_back(made_.surface.vertices, scan_);
+  frame_->bring_back(made_.filled.mesh.nodes, scan_);
+  frame_->bring_back(made_.simplified.features.points, scan_);
 }
 
 }  // namespace
@@ -233,7 +336,6 @@ PipelineResult run_pipeline(SurfaceMesh scan, const PipelineOptions& options, co
       if (*options.repair == RepairOptions{}) result.solid_volume = volume_of_solid(scan, result.repaired);
       describe(result.repaired, record);
     });
-  simplification.size = in_model_units(simplification.size, bounding_box(scan.vertices));  // without debris
   result.scan = std::move(scan);
   SurfaceMesh enriched;  // scans are large: none is copied that the next stage reads only
   if (options.enrich)
@@ -241,39 +343,8 @@ PipelineResult run_pipeline(SurfaceMesh scan, const PipelineOptions& options, co
       enriched = result.scan;
       describe(enrich(enriched, *options.enrich, progress), record);
     });
-  const SurfaceMesh& dense = options.enrich ? enriched : result.scan;
-  FilledSurface made;
-  std::optional<Simplification> search;
-  if (options.simplify)
-    log.run("simplify", [&](StageRecord& record) {
-      search.emplace(dense, simplification);
-      const Progress in_time = options.tetrahedralize ? in_half_of_the_time(progress) : progress.until(progress.end());
-      made.simplified = search->run(made.surface, in_time);
-      describe(made.simplified, simplification.size, record);
-      note_left_out(in_time, "better edge lengths and places of the surface", record, result);
-      if (simplification.given_features && simplification.given_features->segments.empty())
-        record.remarks.emplace_back("the file of features has no lines: no edges are kept");
-    });
-  else
-    made.surface = dense;
-  if (options.tetrahedralize) {
-    TetrahedralizeOptions tetrahedralization = *options.tetrahedralize;
-    if (simplification.limits.elements_across) need_nodes_in_walls(tetrahedralization);
-    log.run("tetrahedralize", [&](StageRecord& record) {
-      const Progress in_time = progress.until(progress.end());
-      made.filled = tetrahedralize(made.surface, tetrahedralization, in_time);
-      describe(made.filled, record);
-      note_left_out(in_time, "better tetrahedra", record, result);
-    });
-    if (options.simplify && worth_renewing(simplification, made))
-      log.run("renewal", [&](StageRecord& record) {
-        const Progress in_time = progress.until(progress.end());
-        RenewalResult renewal = renew_where_poor(*search, simplification, tetrahedralization, std::move(made), in_time);
-        describe(renewal, record);
-        note_left_out(in_time, "renewal of the surface around poor tetrahedra", record, result);
-        made = std::move(renewal.made);
-      });
-  }
+  FilledSurface made =
+      MeshMaker(options.enrich ? enriched : result.scan, simplification, options, result, log).run(progress);
   if (options.simplify || options.tetrahedralize)
     result.weak_places = checked_for_solvers(made.surface, options.tetrahedralize ? &made.filled.mesh : nullptr,
                                              result.scan, simplification);

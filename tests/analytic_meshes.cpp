@@ -248,6 +248,27 @@ SurfaceMesh reversed(SurfaceMesh mesh) {
   return mesh;
 }
 
+SurfaceMesh elsewhere(const SurfaceMesh& mesh, unsigned seed, double turned_triangles) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> one(-1, 1);
+  const Vec3 axis = Vec3(one(random), one(random), one(random)).normalized();
+  const Eigen::AngleAxisd turn(3 * one(random), axis);
+  const Vec3 by = 3 * bounding_box(mesh.vertices).diagonal() * Vec3(one(random), one(random), one(random));
+
+  std::vector<std::uint32_t> place(mesh.vertices.size());
+  std::iota(place.begin(), place.end(), 0U);
+  std::shuffle(place.begin(), place.end(), random);
+  SurfaceMesh other{std::vector<Vec3>(mesh.vertices.size()), mesh.triangles};
+  for (std::size_t v = 0; v < place.size(); ++v) other.vertices[place[v]] = turn * mesh.vertices[v] + by;
+  std::shuffle(other.triangles.begin(), other.triangles.end(), random);
+  for (Triangle& t : other.triangles) {
+    for (std::uint32_t& v : t) v = place[v];
+    std::rotate(t.begin(), t.begin() + std::uniform_int_distribution<int>(0, 2)(random), t.end());
+    if (std::abs(one(random)) < turned_triangles) std::swap(t[0], t[1]);
+  }
+  return other;
+}
+
 SurfaceMesh noisy(SurfaceMesh mesh, double sigma, unsigned seed) {
   std::mt19937 generator(seed);
   std::normal_distribution<double> noise;  // not of `sigma`, which may be zero here and may not there

@@ -46,6 +46,10 @@ SurfaceMesh moved(SurfaceMesh mesh, const Vec3& by);
 // The same surface, inside out.
 SurfaceMesh reversed(SurfaceMesh mesh);
 
+// The same surface turned and moved, its vertices and triangles in another order, triangles beginning at another
+// corner; this share of them turned round.
+SurfaceMesh elsewhere(const SurfaceMesh& mesh, unsigned seed, double turned_triangles = 0);
+
 // Vertices moved by Gaussian noise of standard deviation `sigma`; reproducible by seed.
 SurfaceMesh noisy(SurfaceMesh mesh, double sigma, unsigned seed);
 

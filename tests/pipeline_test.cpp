@@ -100,6 +100,22 @@ TEST(Pipeline, MeshesASpikyPartWell) {
 
 // Two elements side by side at the rim have half its angle, 20 degrees: one must fill it wherever the lattice has set a
 // vertex into the wedge.
+// Wherever it lies, in whatever order its vertices and triangles are given and whichever way they face.
+TEST(Pipeline, ThePartsMeshIsItsOwn) {
+  const SurfaceMesh cube = analytic::box({20, 20, 20}, 5);
+  const std::vector<SurfaceMesh> parts = {
+      analytic::box({60, 40, 8}, 4), analytic::join(cube, analytic::moved(cube, {20, 0, 0})),
+      analytic::cylinder(5, 20, 72, 10), analytic::noisy(analytic::torus(20, 6, 48, 24), 0.05, 3)};
+  for (std::size_t part = 0; part < parts.size(); ++part) {
+    const PipelineResult first = run_pipeline(parts[part]);
+    for (unsigned seed = 1; seed <= 3; ++seed) {
+      const PipelineResult other = run_pipeline(analytic::elsewhere(parts[part], seed, 0.2));
+      EXPECT_EQ(other.surface.triangles, first.surface.triangles) << "part " << part << ", placement " << seed;
+      EXPECT_EQ(other.volume_mesh->tetrahedra, first.volume_mesh->tetrahedra) << "part " << part;
+    }
+  }
+}
+
 TEST(Pipeline, FillsAKnifeEdgeWithOneElementAcross) {
   PipelineOptions options;
   options.simplify->size = FaceRatio{0.3};

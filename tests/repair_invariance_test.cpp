@@ -14,28 +14,6 @@
 namespace scan2fea {
 namespace {
 
-// Turned, moved, its vertices and faces in another order, faces beginning at another corner, some of them turned round.
-SurfaceMesh elsewhere(const SurfaceMesh& mesh, unsigned seed, double turned_faces) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> one(-1, 1);
-  const Vec3 axis = Vec3(one(random), one(random), one(random)).normalized();
-  const Eigen::AngleAxisd turn(3 * one(random), axis);
-  const Vec3 by = 3 * bounding_box(mesh.vertices).diagonal() * Vec3(one(random), one(random), one(random));
-
-  std::vector<std::uint32_t> place(mesh.vertices.size());
-  std::iota(place.begin(), place.end(), 0U);
-  std::shuffle(place.begin(), place.end(), random);
-  SurfaceMesh other{std::vector<Vec3>(mesh.vertices.size()), mesh.triangles};
-  for (std::size_t v = 0; v < place.size(); ++v) other.vertices[place[v]] = turn * mesh.vertices[v] + by;
-  std::shuffle(other.triangles.begin(), other.triangles.end(), random);
-  for (Triangle& t : other.triangles) {
-    for (std::uint32_t& v : t) v = place[v];
-    std::rotate(t.begin(), t.begin() + std::uniform_int_distribution<int>(0, 2)(random), t.end());
-    if (std::abs(one(random)) < turned_faces) std::swap(t[0], t[1]);
-  }
-  return other;
-}
-
 // Whole caps of some parts face inwards: as CAD exports them.
 SurfaceMesh holed_and_flipped() {
   SurfaceMesh mesh = without_faces(analytic::cylinder(5, 20, 32, 10), [](const Vec3& c) {
@@ -75,7 +53,7 @@ void expect_the_same_everywhere(const SurfaceMesh& part, double turned_faces = 0
   const SurfaceValidity wanted = check_validity(first);
   for (unsigned seed = 1; seed <= 20; ++seed) {
     SCOPED_TRACE(seed);
-    SurfaceMesh mesh = elsewhere(part, seed, turned_faces);
+    SurfaceMesh mesh = analytic::elsewhere(part, seed, turned_faces);
     const RepairResult of_mesh = repair(mesh);
     expect_sound(mesh);
     const SurfaceValidity validity = check_validity(mesh);

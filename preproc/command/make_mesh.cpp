@@ -16,13 +16,6 @@
 namespace scan2fea::command {
 namespace {
 
-template <class AnyError>
-[[noreturn]] void rethrow_naming(const AnyError& error, const std::string& input) {
-  ErrorParts parts = error.parts();
-  parts.where = parts.where.empty() ? input : input + ": " + parts.where;
-  throw AnyError(std::move(parts));
-}
-
 // The stages know meshes and no files; a person wants to be told which of many files failed.
 PipelineResult run_naming_input(SurfaceMesh scan, const MakeMeshJob& job, const Progress& progress,
                                 ProgressDisplay& display) {
@@ -30,12 +23,15 @@ PipelineResult run_naming_input(SurfaceMesh scan, const MakeMeshJob& job, const 
   const auto tell = [&](const StageRecord& stage) { display.line(describe_stage(stage)); };
   try {
     return run_pipeline(std::move(scan), job.pipeline, progress, tell);
-  } catch (const InvalidInput& e) {
-    rethrow_naming(e, input);
-  } catch (const NotMeshable& e) {
-    rethrow_naming(e, input);
-  } catch (const MeshingFailed& e) {
-    rethrow_naming(e, input);
+  } catch (WrongUsage&) {
+    throw;
+  } catch (Cancelled&) {
+    throw;
+  } catch (Error& error) {
+    ErrorParts parts = error.parts();
+    parts.where = parts.where.empty() ? input : input + ": " + parts.where;
+    error.amend(std::move(parts));
+    throw;
   }
 }
 

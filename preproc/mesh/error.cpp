@@ -1,11 +1,17 @@
 #include "preproc/mesh/error.hpp"
 
+#include "preproc/mesh/error_text.hpp"
+
+#include <utility>
+
 namespace scan2fea {
 namespace {
 
 std::string one_line(const ErrorParts& parts) {
   std::string line;
-  if (!parts.where.empty()) line = parts.where + ": ";
+  if (!parts.where.empty()) line = parts.where;
+  if (parts.at) line += (line.empty() ? "" : " at ") + error_text(*parts.at);
+  if (!line.empty()) line += ": ";
   line += parts.what;
   if (!parts.value.empty()) line += ": " + parts.value;
   if (!parts.limit.empty()) line += " (limit: " + parts.limit + ")";
@@ -18,7 +24,14 @@ std::string one_line(const ErrorParts& parts) {
 
 }  // namespace
 
-Error::Error(ErrorParts parts) : std::runtime_error(one_line(parts)), parts_(std::move(parts)) {}
+Error::Error(ErrorParts parts) {
+  amend(std::move(parts));
+}
+
+void Error::amend(ErrorParts parts) {
+  parts_ = std::move(parts);
+  line_ = one_line(parts_);
+}
 
 OutOfTime::OutOfTime(std::string_view stage)
     : NotMeshable({.what = "the time limit ended the work before there was a valid mesh",

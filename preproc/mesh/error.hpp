@@ -2,7 +2,10 @@
 // what, where, the value and the limit, and what to try.
 #pragma once
 
-#include <stdexcept>
+#include "preproc/mesh/surface_mesh.hpp"
+
+#include <exception>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -10,22 +13,28 @@ namespace scan2fea {
 
 // The parts of an error message. All but `what` may be empty.
 struct ErrorParts {
-  std::string what;    // "vertex index out of range"
-  std::string where;   // "part.obj:12", "face 17", "(1.5, 0, 2)"
-  std::string value;   // what was found
-  std::string limit;   // what was allowed
-  std::string advice;  // what to try
+  std::string what;             // "vertex index out of range"
+  std::string where;            // "part.obj:12", "face 17"
+  std::string value;            // what was found
+  std::string limit;            // what was allowed
+  std::string advice;           // what to try
+  std::optional<Vec3> at = {};  // shown after `where`: "(1.5, 0, 2)"
 };
 
 // Base of all errors. `what()` is the one-line message; `exit_code()` is the command's exit status.
-class Error : public std::runtime_error {
+class Error : public std::exception {
  public:
   explicit Error(ErrorParts parts);
+  const char* what() const noexcept override { return line_.c_str(); }
   const ErrorParts& parts() const { return parts_; }
   virtual int exit_code() const = 0;
 
+  // For those whom it passes, who know more than where it was thrown.
+  void amend(ErrorParts parts);
+
  private:
   ErrorParts parts_;
+  std::string line_;
 };
 
 // Options contradict one another or the input (exit 2).

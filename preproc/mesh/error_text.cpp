@@ -5,6 +5,7 @@
 namespace scan2fea {
 
 std::string error_text(double value) {
+  if (value == 0) value = 0;  // no sign
   char buffer[32];
   const auto end = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 6).ptr;
   return {buffer, end};

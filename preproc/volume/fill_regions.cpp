@@ -4,7 +4,6 @@
 #include "preproc/volume/face_links.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <string>
 
 namespace scan2fea {
@@ -12,17 +11,19 @@ namespace {
 
 enum class Side : std::uint8_t { unknown, behind, in_front };
 
-std::string place(const std::vector<Vec3>& nodes, const std::vector<Triangle>& triangles, std::size_t i) {
-  const Triangle& t = triangles[i];
-  const Vec3 centre = (nodes[t[0]] + nodes[t[1]] + nodes[t[2]]) / 3;
-  char text[128];
-  std::snprintf(text, sizeof text, "triangle %zu at (%.6g, %.6g, %.6g)", i, centre.x(), centre.y(), centre.z());
-  return text;
+MeshingFailed failed(std::string what, std::string advice) {
+  return MeshingFailed({.what = std::move(what), .where = {}, .value = {}, .limit = {}, .advice = std::move(advice)});
 }
 
-MeshingFailed failed_at(std::string what, std::string where, std::string advice) {
-  return MeshingFailed(
-      {.what = std::move(what), .where = std::move(where), .value = {}, .limit = {}, .advice = std::move(advice)});
+MeshingFailed failed_at(const std::vector<Vec3>& nodes, const std::vector<Triangle>& triangles, std::size_t i,
+                        std::string what, std::string advice) {
+  const Triangle& t = triangles[i];
+  return MeshingFailed({.what = std::move(what),
+                        .where = "triangle " + std::to_string(i),
+                        .value = {},
+                        .limit = {},
+                        .advice = std::move(advice),
+                        .at = Vec3((nodes[t[0]] + nodes[t[1]] + nodes[t[2]]) / 3)});
 }
 
 void make_positive(const std::vector<Vec3>& nodes, std::vector<Tetrahedron>& tetrahedra) {
@@ -92,8 +93,8 @@ TetMesh fill_regions(std::vector<Vec3> nodes, std::vector<Tetrahedron> tetrahedr
     if (reached[seed]) continue;
     const Region region = flood(seed, tetrahedra, triangles, links, reached);
     if (region.disagreeing != no_link)
-      throw failed_at("a shell lies within another one and both face the same way",
-                      place(nodes, triangles, region.disagreeing),
+      throw failed_at(nodes, triangles, region.disagreeing,
+                      "a shell lies within another one and both face the same way",
                       "turn the inner shell around for a cavity, or remove it");
     if (region.side == Side::behind)
       for (const std::uint32_t t : region.tetrahedra) filled[t] = true;
@@ -109,10 +110,10 @@ TetMesh fill_regions(std::vector<Vec3> nodes, std::vector<Tetrahedron> tetrahedr
     mesh.tetrahedra.push_back(tetrahedra[t]);
   }
   if (mesh.tetrahedra.empty())
-    throw failed_at("the surface encloses nothing", {}, "scan2fea repair: it may be open or inside out");
+    throw failed("the surface encloses nothing", "scan2fea repair: it may be open or inside out");
   for (std::size_t i = 0; i < triangles.size(); ++i)
     if (mesh.boundary[i].tetrahedron == no_link)
-      throw failed_at("the mesher did not keep a boundary triangle", place(nodes, triangles, i),
+      throw failed_at(nodes, triangles, i, "the mesher did not keep a boundary triangle",
                       "scan2fea check on the surface, or allow the boundary to be split");
 
   std::vector<std::uint32_t> renumbered(nodes.size(), no_link);

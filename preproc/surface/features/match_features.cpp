@@ -72,10 +72,11 @@ std::vector<std::uint32_t> shortest_way(const SurfaceMesh& scan, const VertexSta
 
 [[noreturn]] void fail(const Vec3& place, double distance, double limit) {
   throw InvalidInput({.what = "a feature line is not near edges of the scan",
-                      .where = error_text(place),
+                      .where = {},
                       .value = "distance " + error_text(distance),
                       .limit = error_text(limit),
-                      .advice = "lines in the scan's coordinates and unit"});
+                      .advice = "lines in the scan's coordinates and unit",
+                      .at = place});
 }
 
 }  // namespace

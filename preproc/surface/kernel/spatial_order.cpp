@@ -8,7 +8,17 @@
 namespace scan2fea {
 namespace {
 
-// The vertices in Morton order, by two passes of counting sort over 15 bits each.
+// Calls act(first, last) on each range of items of the same key.
+template <class Item, class Key, class Act>
+void for_equal(std::vector<Item>& items, const Key& key, const Act& act) {
+  for (auto first = items.begin(); first != items.end();) {
+    const auto last = std::find_if(first + 1, items.end(), [&](const Item& i) { return key(i) != key(*first); });
+    if (last - first > 1) act(first, last);
+    first = last;
+  }
+}
+
+// The vertices in Morton order, those of a cell by their coordinates, by two passes of counting sort over 15 bits each.
 std::vector<std::uint32_t> morton_order(const std::vector<Vec3>& points) {
   const BoundingBox box = bounding_box(points);
   const double extent = (box.high - box.low).maxCoeff();
@@ -32,17 +42,25 @@ std::vector<std::uint32_t> morton_order(const std::vector<Vec3>& points) {
     for (const std::uint32_t v : order) sorted[start[(key[v] >> shift) & mask]++] = v;
     order.swap(sorted);
   }
+  const auto before = [&](std::uint32_t a, std::uint32_t b) {
+    return std::ranges::lexicographical_compare(points[a], points[b]);
+  };
+  for_equal(
+      order, [&](std::uint32_t v) { return key[v]; },
+      [&](auto first, auto last) { std::stable_sort(first, last, before); });
   return order;
 }
 
-// By the smallest of their vertices, which is a counting sort.
+// By the smallest of their vertices, which is a counting sort and becomes the first, then by the others.
 void order_triangles(SurfaceMesh& mesh) {
-  const auto key = [](const Triangle& t) { return std::min({t[0], t[1], t[2]}); };
+  for (Triangle& t : mesh.triangles) std::ranges::rotate(t, std::ranges::min_element(t));
+  const auto key = [](const Triangle& t) { return t[0]; };
   std::vector<std::uint32_t> start(mesh.vertices.size() + 1, 0);
   for (const Triangle& t : mesh.triangles) ++start[key(t) + 1];
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) start[v + 1] += start[v];
   std::vector<Triangle> sorted(mesh.triangles.size());
   for (const Triangle& t : mesh.triangles) sorted[start[key(t)]++] = t;
+  for_equal(sorted, key, [](auto first, auto last) { std::sort(first, last); });
   mesh.triangles = std::move(sorted);
 }
 

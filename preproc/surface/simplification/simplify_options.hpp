@@ -28,7 +28,9 @@ struct MeanEdgeLength {
 struct LargestDeviation {
   enum class Unit {
     model,
-    of_diagonal,  // of the scan's bounding box; run_pipeline takes that of the scan as it was given
+    // Of the scan's bounding box. run_pipeline takes the box along the given axes for what is required, else the
+    // smallest along any: no larger, and the same however the scan lies.
+    of_diagonal,
   };
   double distance;  // two-sided Hausdorff distance to the scan, > 0, bounded for all points
   Unit unit = Unit::model;

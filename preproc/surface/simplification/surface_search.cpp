@@ -42,6 +42,8 @@ constexpr double worth_it_deg = 0.5, worth_it_of_deviation = 0.9;
 constexpr double good_of_few_deg = 30, good_of_many_deg = 17;
 // Places below are mended where they are.
 constexpr double mended_deg = 30;
+// Solvers warn of smaller angles: then a surface farther from the scan is better.
+constexpr double usable_deg = 5;
 
 // With more bad triangles than this the size as a whole is wrong, not places.
 constexpr double share_of_many = 0.1;
@@ -56,8 +58,8 @@ constexpr double few_triangles_of_part = 1000;
 // The share of faces too far that is left to the mending of places: more are cheaper mended by other lengths, all at
 // once. The second is for the last surface, when there is no other way.
 constexpr double few_beyond = 0.08, most_beyond = 0.15;
-// Of the faces: where more places are stuck, shorter edges in each cost more than another surface; and on the last one.
-constexpr double few_stuck = 0.002, most_stuck = 0.01;
+// Of the faces: where more places are stuck, shorter edges in each cost more than another surface.
+constexpr double most_stuck = 0.01;
 
 // Where triangles as large as the deviation allows are too large for the part's edges, smaller ones keep their shape.
 // The bound is where isotropic remeshing with kept edges ends (CGAL: 1.18 to 1.21 on plates, cubes and cylinders).
@@ -102,6 +104,10 @@ std::string count(double triangles) {
 
 bool SurfaceSearch::Trial::has_many_bad() const {
   return static_cast<double>(shape.bad.size()) > share_of_many * static_cast<double>(candidate.faces());
+}
+
+bool SurfaceSearch::Trial::is_usable() const {
+  return shape.sharpest() >= usable_deg;
 }
 
 std::vector<ShorterEdges> SurfaceSearch::Trial::failed_places() const {
@@ -283,7 +289,7 @@ void SurfaceSearch::judge_deviation(Trial& made, const Progress& progress) {
   made.share_beyond = share_beyond(note_deviation(made).to_reference, wanted_.deviation->distance);
   made.mean_edge_ratio = measure_triangles(made.candidate.mesh).edge_ratio.mean;
   if (holds(made) || made.gave_way() || !is_shapely(made) || made.share_beyond > most_to_mend_) return;
-  progress.improve([&](const Progress& in_time) { bring_within(made, few_stuck, in_time); });
+  progress.improve([&](const Progress& in_time) { bring_within(made, most_stuck, in_time); });
   if (!holds(made)) most_to_mend_ = made.share_beyond / 2;  // more of the kind cannot either
 }
 
@@ -377,6 +383,7 @@ bool SurfaceSearch::is_better(const Trial& made, const Trial& other) const {
   if (made.is_other_part != other.is_other_part) return other.is_other_part;
   if (holds(made) != holds(other)) return holds(made);
   if (!holds(made) && made.gave_way() != other.gave_way()) return other.gave_way();
+  if (!holds(made) && made.is_usable() != other.is_usable()) return made.is_usable();
   if (!holds(made)) return made.candidate.largest_deviation < other.candidate.largest_deviation;
   if (is_shapely(made) != is_shapely(other)) return is_shapely(made);
   if (std::abs(made.shape.sharpest() - other.shape.sharpest()) > worth_it_deg)

@@ -69,6 +69,7 @@ class SurfaceSearch {
     bool failed() const { return !candidate.failure.empty(); }  // then there is no more to it than that
     bool gave_way() const { return failed() || !candidate.fallback_reason.empty(); }
     bool lost_creases(const PreparedScan& scan) const { return scan.has_creases() && candidate.feature_edges() == 0; }
+    bool is_usable() const;
     bool has_many_bad() const;
     std::vector<ShorterEdges> failed_places() const;  // of the lattice; empty where they are many
   };
