@@ -120,11 +120,19 @@ void describe(const EnrichResult& result, StageRecord& record) {
                     {"largest_height", result.largest_height}};
 }
 
-// Of what is made in another frame, the places in the scan's.
-using PlaceInScan = std::function<Vec3(const Vec3&)>;
+// Of what is made in another frame, places and lengths in the scan's.
+class InScan {
+ public:
+  explicit InScan(const std::optional<CanonicalFrame>& frame) : frame_(frame) {}
+  Vec3 place(const Vec3& p) const { return frame_ ? frame_->place_of(p) : p; }
+  double unit() const { return frame_ ? frame_->unit() : 1; }
+
+ private:
+  const std::optional<CanonicalFrame>& frame_;
+};
 
 // What became of the sharp edges of the scan. Gates may name the figures, so that they are there even where all are 0.
-void describe_features(const SimplifyResult& result, const PlaceInScan& in_scan, StageRecord& record) {
+void describe_features(const SimplifyResult& result, const InScan& in_scan, StageRecord& record) {
   std::size_t unsupported = 0;
   for (const UnsupportedCreases& dropped : result.unsupported_creases) unsupported += dropped.edges;
   record.changes.emplace_back("feature_edges_before", static_cast<double>(result.feature_edges));
@@ -134,7 +142,7 @@ void describe_features(const SimplifyResult& result, const PlaceInScan& in_scan,
   for (const UnsupportedCreases& dropped : result.unsupported_creases)
     record.remarks.push_back(std::to_string(dropped.edges) + " sharp edges in " + std::to_string(dropped.networks) +
                              (dropped.networks == 1 ? " place, " : " places, the longest ") + "at " +
-                             error_text(in_scan(dropped.place)) +
+                             error_text(in_scan.place(dropped.place)) +
                              ", are not kept as creases: " + describe(dropped.fault));
   if (result.feature_edges_too_fine > 0)
     record.remarks.push_back(
@@ -143,35 +151,37 @@ void describe_features(const SimplifyResult& result, const PlaceInScan& in_scan,
   if (!result.feature_remark.empty()) record.remarks.push_back(result.feature_remark);
 }
 
-void describe(const SimplifyResult& result, const TargetSize& size, const PlaceInScan& in_scan, StageRecord& record) {
+void describe(const SimplifyResult& result, const TargetSize& size, const InScan& in_scan, StageRecord& record) {
   record.changes = {{"faces_before", static_cast<double>(result.faces_before)},
                     {"faces_after", static_cast<double>(result.faces_after)},
                     {"crossings_mended", static_cast<double>(result.crossings_mended)}};
   describe_features(result, in_scan, record);
   if (!result.size_remark.empty()) record.remarks.push_back(result.size_remark);
-  if (result.largest_deviation > 0) record.changes.emplace_back("largest_deviation", result.largest_deviation);
+  if (result.largest_deviation > 0)
+    record.changes.emplace_back("largest_deviation", in_scan.unit() * result.largest_deviation);
   const auto* aim = std::get_if<LargestDeviation>(&size);
   if (aim != nullptr && result.largest_deviation > aim->distance)
     record.remarks.push_back(
-        "the deviation that was aimed at is not reached everywhere: " + std::to_string(aim->distance) +
+        "the deviation that was aimed at is not reached everywhere: " + std::to_string(in_scan.unit() * aim->distance) +
         "; smaller triangles (--faces, --edge-length) come nearer");
   if (!result.fallback_reason.empty())
     record.remarks.push_back("the lattice gave way to collapse: " + result.fallback_reason);
 }
 
 // Beside what came out, the best that the surface allows, and where it is set.
-void describe(const TetrahedralizeResult& result, const PlaceInScan& in_scan, StageRecord& record) {
+void describe(const TetrahedralizeResult& result, const InScan& in_scan, StageRecord& record) {
   record.changes = {{"tetrahedra", static_cast<double>(result.mesh.tetrahedra.size())},
                     {"tetrahedra_estimated", static_cast<double>(result.estimated_tetrahedra)},
                     {"nodes", static_cast<double>(result.mesh.nodes.size())},
                     {"surface_allows_min_dihedral_deg", result.bound.min_dihedral_deg},
                     {"surface_allows_scaled_jacobian", result.bound.scaled_jacobian}};
-  record.remarks = {"the surface bounds the dihedral angle at " + error_text(in_scan(result.bound.min_dihedral_at)),
-                    "and the scaled Jacobian at " + error_text(in_scan(result.bound.scaled_jacobian_at))};
+  record.remarks = {
+      "the surface bounds the dihedral angle at " + error_text(in_scan.place(result.bound.min_dihedral_at)),
+      "and the scaled Jacobian at " + error_text(in_scan.place(result.bound.scaled_jacobian_at))};
 }
 
 // What was gained, and the same figures of the mesh that stands now as of the first.
-void describe(const RenewalResult& renewal, const PlaceInScan& in_scan, StageRecord& record) {
+void describe(const RenewalResult& renewal, const InScan& in_scan, StageRecord& record) {
   const FilledSurface& made = renewal.made;
   if (renewal.gained()) describe(made.filled, in_scan, record);
   record.changes.insert(record.changes.begin(), {{"surfaces_made", static_cast<double>(renewal.rounds)},
@@ -179,7 +189,7 @@ void describe(const RenewalResult& renewal, const PlaceInScan& in_scan, StageRec
                                                  {"min_dihedral_after_deg", renewal.min_dihedral_after_deg},
                                                  {"faces_after", static_cast<double>(made.surface.triangles.size())}});
   if (made.simplified.largest_deviation > 0)
-    record.changes.emplace_back("largest_deviation", made.simplified.largest_deviation);
+    record.changes.emplace_back("largest_deviation", in_scan.unit() * made.simplified.largest_deviation);
 }
 
 // Between two sides whose triangles are as wide as half of the wall there are nodes everywhere only if those inside are
@@ -193,9 +203,10 @@ void need_nodes_in_walls(TetrahedralizeOptions& options) {
 // Where a mesh is no use to any solver there is none; but who asks for the paper's collapse gets its needles, too, and
 // is told.
 std::vector<WeakPlace> checked_for_solvers(const SurfaceMesh& surface, const TetMesh* volume_mesh,
-                                           const SurfaceMesh& scan, const SimplifyOptions& simplification) {
+                                           const SurfaceMesh& scan, const PipelineOptions& options) {
   std::vector<WeakPlace> places = find_weak_places(surface, volume_mesh, scan);
-  const bool is_told_only = volume_mesh == nullptr && simplification.method == SimplifyMethod::collapse;
+  const bool is_told_only =
+      !options.tetrahedralize && options.simplify && options.simplify->method == SimplifyMethod::collapse;
   for (const WeakPlace& place : places)
     if (place.is_unusable && !is_told_only)
       throw NotMeshable({.what = "no solver takes the mesh that came out: " + place.what,
@@ -223,9 +234,13 @@ void note_left_out(const Progress& stage, const char* what, StageRecord& record,
 // of the user's are no part of it: with them, and where only tetrahedra are made, it stays where it is.
 class MeshMaker {
  public:
-  MeshMaker(const SurfaceMesh& scan, SimplifyOptions& simplification, const PipelineOptions& options,
-            PipelineResult& result, StageLog& log)
-      : scan_(scan), simplification_(simplification), options_(options), result_(result), log_(log) {
+  MeshMaker(const SurfaceMesh& scan, const PipelineOptions& options, PipelineResult& result, StageLog& log)
+      : scan_(scan),
+        options_(options),
+        simplification_(options.simplify.value_or(SimplifyOptions{})),
+        tetrahedralization_(options.tetrahedralize.value_or(TetrahedralizeOptions{})),
+        result_(result),
+        log_(log) {
     place();
   }
 
@@ -233,36 +248,49 @@ class MeshMaker {
 
  private:
   void place();
+  void take_lengths_to_frame();
   void simplify(const Progress& progress);
   void tetrahedralize(const Progress& progress);
   void bring_back();
   const SurfaceMesh& scan() const { return placed_ ? *placed_ : scan_; }
 
   const SurfaceMesh& scan_;
-  SimplifyOptions& simplification_;
   const PipelineOptions& options_;
+  SimplifyOptions simplification_;
+  TetrahedralizeOptions tetrahedralization_;
   PipelineResult& result_;
   StageLog& log_;
   std::optional<CanonicalFrame> frame_;
   std::optional<SurfaceMesh> placed_;
   std::optional<Simplification> search_;
   FilledSurface made_;
-  PlaceInScan in_scan_ = [this](const Vec3& p) { return frame_ ? frame_->place_of(p) : p; };
+  InScan in_scan_{frame_};
 };
 
 void MeshMaker::place() {
   const SizeLimits& limits = simplification_.limits;
   if (options_.simplify && simplification_.method == SimplifyMethod::lattice && limits.boxes.empty() &&
       limits.balls.empty() && surface_area(scan_) > 0) {
-    frame_.emplace(scan_);
-    placed_ = frame_->placed(scan_);
+    frame_.emplace(scan_, placed_.emplace());
     if (simplification_.given_features)
       for (Vec3& p : simplification_.given_features->points) p = frame_->to_frame(p);
   }
-  // A bound is in parts of the box that everyone sees; an aim is the same however the scan lies, to the last bit.
-  const auto* bound = std::get_if<LargestDeviation>(&simplification_.size);
-  const bool is_aim = bound != nullptr && !bound->required;
-  simplification_.size = in_model_units(simplification_.size, bounding_box((is_aim ? scan() : scan_).vertices));
+  take_lengths_to_frame();
+}
+
+void MeshMaker::take_lengths_to_frame() {
+  const double unit = in_scan_.unit();
+  TargetSize& size = simplification_.size;
+  if (auto* edge = std::get_if<MeanEdgeLength>(&size)) edge->length /= unit;
+  if (auto* bound = std::get_if<LargestDeviation>(&size)) {
+    // A bound is in parts of the box that everyone sees; an aim is the same however the scan lies, to the last bit.
+    const bool is_aim = bound->unit == LargestDeviation::Unit::of_diagonal && !bound->required;
+    size = in_model_units(size, bounding_box((is_aim ? scan() : scan_).vertices));
+    if (!is_aim) std::get<LargestDeviation>(size).distance /= unit;
+  }
+  if (tetrahedralization_.max_volume) *tetrahedralization_.max_volume /= unit * unit * unit;
+  InteriorSize& inside = tetrahedralization_.interior_size;
+  if (inside.unit == InteriorSize::Unit::model) inside.value /= unit;
 }
 
 FilledSurface MeshMaker::run(const Progress& progress) {
@@ -271,7 +299,7 @@ FilledSurface MeshMaker::run(const Progress& progress) {
     if (options_.tetrahedralize) tetrahedralize(progress);
   } catch (Error& error) {
     ErrorParts parts = error.parts();
-    if (parts.at) parts.at = in_scan_(*parts.at);
+    if (parts.at) parts.at = in_scan_.place(*parts.at);
     error.amend(std::move(parts));
     throw;
   }
@@ -296,18 +324,18 @@ void MeshMaker::simplify(const Progress& progress) {
 }
 
 void MeshMaker::tetrahedralize(const Progress& progress) {
-  TetrahedralizeOptions tetrahedralization = *options_.tetrahedralize;
-  if (simplification_.limits.elements_across) need_nodes_in_walls(tetrahedralization);
+  if (search_) checked_for_solvers(made_.surface, nullptr, scan(), options_);  // else the mesher fails on it
+  if (simplification_.limits.elements_across) need_nodes_in_walls(tetrahedralization_);
   log_.run("tetrahedralize", [&](StageRecord& record) {
     const Progress in_time = progress.until(progress.end());
-    made_.filled = scan2fea::tetrahedralize(made_.surface, tetrahedralization, in_time);
+    made_.filled = scan2fea::tetrahedralize(made_.surface, tetrahedralization_, in_time);
     describe(made_.filled, in_scan_, record);
     note_left_out(in_time, "better tetrahedra", record, result_);
   });
   if (!search_ || !worth_renewing(simplification_, made_)) return;
   log_.run("renewal", [&](StageRecord& record) {
     const Progress in_time = progress.until(progress.end());
-    RenewalResult renewal = renew_where_poor(*search_, simplification_, tetrahedralization, std::move(made_), in_time);
+    RenewalResult renewal = renew_where_poor(*search_, simplification_, tetrahedralization_, std::move(made_), in_time);
     describe(renewal, in_scan_, record);
     note_left_out(in_time, "renewal of the surface around poor tetrahedra", record, result_);
     made_ = std::move(renewal.made);
@@ -319,6 +347,7 @@ void MeshMaker::bring_back() {
   frame_->bring_back(made_.surface.vertices, scan_);
   frame_->bring_back(made_.filled.mesh.nodes, scan_);
   frame_->bring_back(made_.simplified.features.points, scan_);
+  made_.simplified.largest_deviation *= frame_->unit();
 }
 
 }  // namespace
@@ -327,7 +356,6 @@ PipelineResult run_pipeline(SurfaceMesh scan, const PipelineOptions& options, co
                             const StageListener& listener) {
   PipelineResult result;
   StageLog log(result.stages, listener);
-  SimplifyOptions simplification = options.simplify.value_or(SimplifyOptions{});
   if (options.repair)
     log.run("repair", [&](StageRecord& record) {
       SurfaceMesh given = scan;
@@ -343,11 +371,10 @@ PipelineResult run_pipeline(SurfaceMesh scan, const PipelineOptions& options, co
       enriched = result.scan;
       describe(enrich(enriched, *options.enrich, progress), record);
     });
-  FilledSurface made =
-      MeshMaker(options.enrich ? enriched : result.scan, simplification, options, result, log).run(progress);
+  FilledSurface made = MeshMaker(options.enrich ? enriched : result.scan, options, result, log).run(progress);
   if (options.simplify || options.tetrahedralize)
-    result.weak_places = checked_for_solvers(made.surface, options.tetrahedralize ? &made.filled.mesh : nullptr,
-                                             result.scan, simplification);
+    result.weak_places =
+        checked_for_solvers(made.surface, options.tetrahedralize ? &made.filled.mesh : nullptr, result.scan, options);
   result.surface = std::move(made.surface);
   result.features = std::move(made.simplified.features);
   if (options.tetrahedralize) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -29,10 +30,12 @@ std::vector<std::pair<std::string, SurfaceMesh>> parts() {
 
 TEST(CanonicalFrame, IsThePartsOwnToTheLastBit) {
   for (const auto& [name, part] : parts()) {
-    const SurfaceMesh first = CanonicalFrame(part).placed(part);
-    for (unsigned seed = 1; seed <= 20; ++seed) {
-      const SurfaceMesh other = analytic::elsewhere(part, seed);
-      const SurfaceMesh placed = CanonicalFrame(other).placed(other);
+    SurfaceMesh first, placed;
+    CanonicalFrame(part, first);
+    for (unsigned seed = 1; seed <= 50; ++seed) {
+      SurfaceMesh other = analytic::elsewhere(part, seed);
+      for (Vec3& p : other.vertices) p *= std::pow(25.4, static_cast<int>(seed % 5) - 2);
+      CanonicalFrame(other, placed);
       EXPECT_TRUE(placed.vertices == first.vertices) << name << ", placement " << seed;
       EXPECT_TRUE(placed.triangles == first.triangles) << name << ", placement " << seed;
     }
@@ -41,7 +44,9 @@ TEST(CanonicalFrame, IsThePartsOwnToTheLastBit) {
 
 TEST(CanonicalFrame, MovesThePartAsARigidBody) {
   for (const auto& [name, part] : parts()) {
-    const SurfaceMesh placed = CanonicalFrame(part).placed(part);
+    SurfaceMesh placed;
+    const CanonicalFrame frame(part, placed);
+    for (Vec3& p : placed.vertices) p *= frame.unit();
     const double size = bounding_box(part.vertices).diagonal();
     EXPECT_NEAR(enclosed_volume(placed), enclosed_volume(part), 1e-8 * size * size * size) << name;  // no mirror image
     EXPECT_NEAR(surface_area(placed), surface_area(part), 1e-8 * size * size) << name;
@@ -50,11 +55,10 @@ TEST(CanonicalFrame, MovesThePartAsARigidBody) {
 
 TEST(CanonicalFrame, PlanesOfTheGivenAxesComeBackExactly) {
   const SurfaceMesh part = analytic::moved(analytic::box({60, 40, 8}, 4), {0.1, -20, 0});
-  const CanonicalFrame frame(part);
-  std::vector<Vec3> points = frame.placed(part).vertices;
-  frame.bring_back(points, part);
+  SurfaceMesh placed;
+  CanonicalFrame(part, placed).bring_back(placed.vertices, part);
   std::array<int, 2> on_planes{};
-  for (const Vec3& p : points) {
+  for (const Vec3& p : placed.vertices) {
     on_planes[0] += p.x() == 0.1;
     on_planes[1] += p.z() == 0;
   }
@@ -64,7 +68,8 @@ TEST(CanonicalFrame, PlanesOfTheGivenAxesComeBackExactly) {
 
 TEST(CanonicalFrame, OtherPointsComeBackToRounding) {
   const SurfaceMesh part = analytic::elsewhere(analytic::torus(20, 6, 48, 24), 4);
-  const CanonicalFrame frame(part);
+  SurfaceMesh placed;
+  const CanonicalFrame frame(part, placed);
   const double size = bounding_box(part.vertices).diagonal();
   for (const Vec3& p : part.vertices) EXPECT_LT((frame.back(frame.to_frame(p)) - p).norm(), 1e-9 * size);
 }

@@ -70,11 +70,12 @@ std::vector<std::uint32_t> shortest_way(const SurfaceMesh& scan, const VertexSta
   return way;
 }
 
-[[noreturn]] void fail(const Vec3& place, double distance, double limit) {
+[[noreturn]] void fail(const SurfaceMesh& scan, const Vec3& place, double distance, double limit) {
+  const double percent = 100 / bounding_box(scan.vertices).diagonal();
   throw InvalidInput({.what = "a feature line is not near edges of the scan",
                       .where = {},
-                      .value = "distance " + error_text(distance),
-                      .limit = error_text(limit),
+                      .value = "distance " + error_text(percent * distance) + " % of its diagonal",
+                      .limit = error_text(percent * limit) + " %",
                       .advice = "lines in the scan's coordinates and unit",
                       .at = place});
 }
@@ -92,10 +93,10 @@ std::vector<FeatureEdge> match_features(const SurfaceMesh& scan, const VertexSta
     const Segment line{lines.points[from], lines.points[to]};
     for (const std::uint32_t point : {from, to}) {
       const double distance = (lines.points[point] - scan.vertices[nearest[point]]).norm();
-      if (distance > tolerance) fail(lines.points[point], distance, tolerance);
+      if (distance > tolerance) fail(scan, lines.points[point], distance, tolerance);
     }
     const auto way = shortest_way(scan, stars, line, nearest[from], nearest[to], tolerance);
-    if (way.empty()) fail(0.5 * (line.from + line.to), std::numeric_limits<double>::infinity(), tolerance);
+    if (way.empty()) fail(scan, 0.5 * (line.from + line.to), std::numeric_limits<double>::infinity(), tolerance);
     for (std::size_t i = 0; i + 1 < way.size(); ++i) {
       const auto [low, high] = std::minmax(way[i], way[i + 1]);
       edges.push_back({low, high});

@@ -87,13 +87,22 @@ std::vector<Vector> farthest_across(const Vector& axis, std::size_t count, std::
   return directions;
 }
 
-// Of the largest triangles' normals; in a plane, which has but one, of the longest edges.
-std::vector<Vector> landmarks(const SurfaceMesh& mesh, const Vector& axis) {
+// Of the largest triangles the normals or, where these are so small that the coordinates' last bits turn them, the ways
+// to their middles; in a plane, which has but one normal, the longest edges.
+std::vector<Vector> landmarks(const SurfaceMesh& mesh, const Moments& moments, const Vector& axis) {
   constexpr std::size_t most_work = 100000000, least = 16;  // all of most parts, of huge ones as many as cost little
+  constexpr Real small = 0.04L;                             // doubled area, over the radius squared
   const std::vector<Triangle>& triangles = mesh.triangles;
   const std::size_t most = std::max(least, most_work / triangles.size());
-  std::vector<Vector> found =
-      farthest_across(axis, triangles.size(), most, [&](std::size_t f) { return doubled_area(mesh, triangles[f]); });
+  Real largest = 0;
+  for (const Triangle& t : triangles) largest = std::max(largest, doubled_area(mesh, t).norm());
+  std::vector<Vector> found = farthest_across(axis, triangles.size(), most, [&](std::size_t f) {
+    const Triangle& t = triangles[f];
+    const Vector normal = doubled_area(mesh, t);
+    if (largest > small * moments.radius * moments.radius) return normal;
+    const Vector middle = (corner(mesh, t, 0) + corner(mesh, t, 1) + corner(mesh, t, 2)) / 3;
+    return Vector(normal.norm() * (middle - moments.centre));
+  });
   if (found.empty())
     found = farthest_across(axis, 3 * triangles.size(), most, [&](std::size_t i) {
       const Triangle& t = triangles[i / 3];
@@ -122,16 +131,20 @@ class Asymmetry {
     return sum / static_cast<Real>(mesh_.triangles.size());
   }
 
-  // Along which the sum is largest; of several alike the first.
-  template <class Items, class Direction>
-  auto largest(const Items& items, const Direction& direction) const {
-    auto best = items.front();
+  // Those along which the sum is largest: as many that agree as are enough to have one of each kind, if there are more.
+  template <class Item, class Direction>
+  std::vector<Item> largest(const std::vector<Item>& items, const Direction& direction) const {
+    constexpr std::size_t enough = 16;
+    std::vector<Item> best;
     Real sum_of_best = -std::numeric_limits<Real>::infinity();
-    for (const auto& item : items) {
+    for (const Item& item : items) {
       const Real sum = along(direction(item));
-      if (!(sum > sum_of_best + nearly_of_sum)) continue;
-      sum_of_best = sum;
-      best = item;
+      if (sum < sum_of_best - nearly_of_sum) continue;
+      if (sum > sum_of_best + nearly_of_sum) {
+        best.clear();
+        sum_of_best = sum;
+      }
+      if (best.size() < enough) best.push_back(item);
     }
     return best;
   }
@@ -151,7 +164,8 @@ void add_frames(const Vector& x, const Vector& y, std::vector<Matrix>& frames) {
     }
 }
 
-Matrix axes_of(const SurfaceMesh& mesh, const Moments& moments) {
+// Several where the sums don't tell them apart.
+std::vector<Matrix> possible_axes(const SurfaceMesh& mesh, const Moments& moments) {
   const Eigen::SelfAdjointEigenSolver<Matrix> solver(moments.normals);
   const Vector& moment = solver.eigenvalues();
   const Matrix& axis = solver.eigenvectors();
@@ -161,14 +175,20 @@ Matrix axes_of(const SurfaceMesh& mesh, const Moments& moments) {
   if (low && high) {
     add_frames(axis.col(2), axis.col(1), frames);
   } else {
-    const auto itself = [](const Vector& v) { return v; };
-    const Vector x = low    ? Vector(axis.col(0))
-                     : high ? Vector(axis.col(2))
-                            : asymmetry.largest(landmarks(mesh, Vector::Zero()), itself);
-    for (const Vector& y : landmarks(mesh, x)) add_frames(x, y, frames);
+    std::vector<Vector> first{axis.col(high ? 2 : 0)};
+    if (!low && !high)
+      first = asymmetry.largest(landmarks(mesh, moments, Vector::Zero()), [](const Vector& v) { return v; });
+    for (const Vector& x : first)
+      for (const Vector& y : landmarks(mesh, moments, x)) add_frames(x, y, frames);
   }
   const Vector oblique(0.48L, 0.29L, 0.83L);  // to all planes of symmetry that parts have
   return asymmetry.largest(frames, [&](const Matrix& axes) { return Vector(axes * oblique); });
+}
+
+bool is_before(const SurfaceMesh& a, const SurfaceMesh& b) {
+  for (std::size_t v = 0; v < a.vertices.size(); ++v)
+    if (a.vertices[v] != b.vertices[v]) return std::ranges::lexicographical_compare(a.vertices[v], b.vertices[v]);
+  return a.triangles < b.triangles;
 }
 
 // Where on a circle of circumference 1 the widest gap between these places has its middle; of gaps alike the first from
@@ -202,30 +222,50 @@ double grid_begin(const SurfaceMesh& mesh, const Vec3& axis, const Vec3& origin,
 
 }  // namespace
 
-CanonicalFrame::CanonicalFrame(const SurfaceMesh& mesh) {
-  // Above this there is no place for the grid that is clear of all vertices.
-  constexpr std::size_t most_to_clear = 1U << 18U;
+CanonicalFrame::CanonicalFrame(const SurfaceMesh& mesh, SurfaceMesh& placed) {
   constexpr int finest = -43, coarsest = -27;
   const Moments moments = moments_of(mesh);
-  axes_ = axes_of(mesh, moments).cast<double>();
-  origin_ = moments.centre.cast<double>();
-  const std::size_t count = mesh.vertices.size();
-  const int digits = std::min(finest + std::ilogb(static_cast<double>(count)) + 1, coarsest);
-  step_ = std::ldexp(1, std::ilogb(static_cast<double>(moments.radius)) + digits);
-  if (count <= most_to_clear) {
-    Vec3 begin;
-    for (int k = 0; k < 3; ++k) begin[k] = grid_begin(mesh, axes_.col(k), origin_, step_);
-    origin_ += axes_ * (begin * step_);
+  unit_ = static_cast<double>(moments.radius);
+  step_ = std::ldexp(1, std::min(finest + std::ilogb(static_cast<double>(mesh.vertices.size())) + 1, coarsest));
+  const std::vector<Matrix> possible = possible_axes(mesh, moments);
+  const Vec3 centre = moments.centre.cast<double>();
+  lie(mesh, possible.front().cast<double>(), centre);
+  placed = on_grid(mesh);
+  for (std::size_t i = 1; i < possible.size(); ++i) {
+    CanonicalFrame other = *this;
+    other.lie(mesh, possible[i].cast<double>(), centre);
+    SurfaceMesh placed_otherwise = other.on_grid(mesh);
+    if (!is_before(placed_otherwise, placed)) continue;
+    *this = other;
+    placed = std::move(placed_otherwise);
   }
-  std::vector<Vec3> points(count);
-  for_each_block(count, [&](std::size_t first, std::size_t last) {
-    for (std::size_t v = first; v < last; ++v) points[v] = on_grid(mesh.vertices[v]);
+  turn_ = smallest_box_axes(placed.vertices);
+  for (Vec3& p : placed.vertices) p = turn_.transpose() * p;
+}
+
+void CanonicalFrame::lie(const SurfaceMesh& mesh, const Eigen::Matrix3d& axes, const Vec3& centre) {
+  // Above this there is no place for the grid that is clear of all vertices.
+  constexpr std::size_t most_to_clear = 1U << 18U;
+  axes_ = axes;
+  origin_ = centre;
+  if (mesh.vertices.size() > most_to_clear) return;
+  Vec3 begin;
+  for (int k = 0; k < 3; ++k) begin[k] = grid_begin(mesh, axes_.col(k), origin_, unit_ * step_);
+  origin_ += axes_ * (begin * (unit_ * step_));
+}
+
+SurfaceMesh CanonicalFrame::on_grid(const SurfaceMesh& mesh) const {
+  SurfaceMesh placed{std::vector<Vec3>(mesh.vertices.size()), mesh.triangles};
+  for_each_block(mesh.vertices.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t v = first; v < last; ++v) placed.vertices[v] = on_grid(mesh.vertices[v]);
   });
-  turn_ = smallest_box_axes(points);
+  order_along_curve(placed);
+  return placed;
 }
 
 Vec3 CanonicalFrame::on_grid(const Vec3& p) const {
-  const Vector at = axes_.transpose().cast<Real>() * (p.cast<Real>() - origin_.cast<Real>()) / step_;
+  const Vector at = axes_.transpose().cast<Real>() * (p.cast<Real>() - origin_.cast<Real>()) /
+                    (static_cast<Real>(unit_) * static_cast<Real>(step_));
   return at.cast<double>().array().round() * step_;
 }
 
@@ -234,20 +274,12 @@ Vec3 CanonicalFrame::to_frame(const Vec3& p) const {
 }
 
 Vec3 CanonicalFrame::place_of(const Vec3& p) const {
-  const double step = 4 * step_;  // a half of the grid's along each of three axes, and more
+  const double step = 4 * unit_ * step_;  // a half of the grid's along each of three axes, and more
   return (back(p) / step).array().round() * step;
 }
 
-SurfaceMesh CanonicalFrame::placed(const SurfaceMesh& mesh) const {
-  SurfaceMesh placed{std::vector<Vec3>(mesh.vertices.size()), mesh.triangles};
-  for_each_block(mesh.vertices.size(), [&](std::size_t first, std::size_t last) {
-    for (std::size_t v = first; v < last; ++v) placed.vertices[v] = to_frame(mesh.vertices[v]);
-  });
-  order_along_curve(placed);
-  return placed;
-}
-
 void CanonicalFrame::bring_back(std::vector<Vec3>& points, const SurfaceMesh& mesh) const {
+  const double step = unit_ * step_;
   std::array<std::vector<double>, 3> own;
   tbb::parallel_for(std::size_t{0}, own.size(), [&](std::size_t axis) {
     for (const Vec3& p : mesh.vertices) own[axis].push_back(p[static_cast<Eigen::Index>(axis)]);
@@ -259,8 +291,8 @@ void CanonicalFrame::bring_back(std::vector<Vec3>& points, const SurfaceMesh& me
       p = back(p);
       for (std::size_t axis = 0; axis < own.size(); ++axis) {
         double& x = p[static_cast<Eigen::Index>(axis)];
-        const auto near = std::ranges::lower_bound(own[axis], x - step_);
-        if (near != own[axis].end() && *near <= x + step_) x = *near;
+        const auto near = std::ranges::lower_bound(own[axis], x - step);
+        if (near != own[axis].end() && *near <= x + step) x = *near;
       }
     }
   });

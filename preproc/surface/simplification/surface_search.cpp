@@ -167,9 +167,10 @@ Candidate SurfaceSearch::run(const Progress& progress) {
   if (!holds(best) && wanted_.deviation->required)
     throw NotMeshable({.what = "the deviation was not reached",
                        .where = {},
-                       .value = std::to_string(best.candidate.largest_deviation) + " with " +
-                                count(static_cast<double>(best.candidate.faces())) + " triangles",
-                       .limit = std::to_string(wanted_.deviation->distance),
+                       .value = std::to_string(best.candidate.largest_deviation / wanted_.deviation->distance) +
+                                " times as far, with " + count(static_cast<double>(best.candidate.faces())) +
+                                " triangles",
+                       .limit = {},
                        .advice = "a larger --deviation, or --faces"});
   most_work_ = std::max(most_work_, work_ + work_for_small);
   return (last_ = std::move(best)).candidate;
