@@ -137,7 +137,7 @@ class Hopeless {
 
 PatchChanges refine_places(PatchMender& mender, const SurfaceMesh& mesh, const ReferenceSurface& scan,
                            const std::vector<double>& deviation, Mending how, const LocalRefinementOptions& options,
-                           Hopeless& hopeless) {
+                           Hopeless& hopeless, std::size_t& in_vain) {
   PatchGoal goal;
   goal.limit = goal_limit(options);
   goal.allowed = options.limit;
@@ -156,6 +156,7 @@ PatchChanges refine_places(PatchMender& mender, const SurfaceMesh& mesh, const R
   PatchChanges changes = mender.take_changes();
   hopeless.unmark(changes.changed);
   hopeless.mark(mesh, places);
+  in_vain += places.size();
   return changes;
 }
 
@@ -221,7 +222,9 @@ LocalRefinementResult refine_worst(SurfaceMesh& mesh, const ReferenceSurface& sc
   FeatureNet none;
   PatchMender mender(mesh, none, scan, nullptr);
   Hopeless hopeless;
-  const PatchChanges changes = refine_places(mender, mesh, scan, deviation, Mending::improve, options, hopeless);
+  std::size_t in_vain = 0;
+  const PatchChanges changes =
+      refine_places(mender, mesh, scan, deviation, Mending::improve, options, hopeless, in_vain);
   return {changes.patches, changes.inserted};
 }
 
@@ -240,16 +243,19 @@ BoundedRefinementResult refine_within(SurfaceMesh& mesh, FeatureNet& net, const 
   LocalRefinementOptions left = options;
   BoundedRefinementResult result;
   Hopeless hopeless;
+  std::size_t in_vain = 0;
   int shortened = 0;
   Mending how = Mending::improve;
   for (int round = 0;; ++round) {
     progress("deviation", static_cast<double>(round) / options.rounds);
     result.largest_deviation = known.largest();
-    if (result.largest_deviation <= options.limit || round == options.rounds) break;
+    if (result.largest_deviation <= options.limit || round == options.rounds ||
+        (in_vain > options.most_in_vain && in_vain - options.most_in_vain > result.changes.patches))
+      break;
     std::vector<double> deviation = known.of_mesh();
     attribute(known.far_points(scan), mesh, scan.mean_edge(mesh.triangles.size()), deviation);
     left.most_vertices = options.most_vertices - std::min(options.most_vertices, result.changes.inserted);
-    const PatchChanges changes = refine_places(mender, mesh, scan, deviation, how, left, hopeless);
+    const PatchChanges changes = refine_places(mender, mesh, scan, deviation, how, left, hopeless, in_vain);
     result.changes.patches += changes.patches;
     result.changes.inserted += changes.inserted;
     if (changes.patches > 0) {

@@ -29,6 +29,8 @@ struct LocalRefinementOptions {
   std::size_t most_to_yield = std::numeric_limits<std::size_t>::max();
   // Of refine_within, each bounded; at least 1.
   int rounds = 40;
+  // Of refine_within: no more is tried when so many places more were tried in vain than came nearer.
+  std::size_t most_in_vain = std::numeric_limits<std::size_t>::max();
 };
 
 struct LocalRefinementResult {

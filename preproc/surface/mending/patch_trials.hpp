@@ -64,8 +64,9 @@ class Surroundings {
                const std::vector<std::uint32_t>& around, const SurfaceMesh& scan,
                const std::vector<std::uint32_t>& scan_faces, const PatchGoal& goal);
 
-  // False where no part of the scan belongs to the patch: then there is nothing to try.
-  bool has_scan() const { return scan_ && scan_->fit(); }
+  // False where no part of the scan belongs to the patch, or so much of it is too far away that a piece of the surface
+  // is missing, which no few vertices more bring back: then there is nothing to try.
+  bool may_help(const SurfaceMesh& patch) const;
 
   // Shape and fit, see shape_fit.hpp; residuals of `fidelity` cost as much as F(eta) = 1.
   void fit(Trial& trial, double fidelity) const;

@@ -341,7 +341,7 @@ PatchOutcome RefinementPatch::improve(const SurfaceMesh& mesh, const std::vector
                                       const SurfaceMesh& scan, const std::vector<std::uint32_t>& scan_faces,
                                       const FeatureNet& net, const PatchGoal& goal) {
   const Surroundings surroundings(mesh, outline_, patch_, around, scan, scan_faces, goal);
-  if (!surroundings.has_scan()) return {};
+  if (!surroundings.may_help(patch_)) return {};
   Trial first = first_state(surroundings, goal);
   if (!goal.for_shape) surroundings.certify(first);
   if (score_of(first, goal) == 0) return {.improved = false, .reached = true};
@@ -361,7 +361,7 @@ PatchOutcome RefinementPatch::shorten(const SurfaceMesh& mesh, const std::vector
                                       const SurfaceMesh& scan, const std::vector<std::uint32_t>& scan_faces,
                                       const FeatureNet& net, const PatchGoal& goal, const ShorterEdges& place) {
   const Surroundings surroundings(mesh, outline_, patch_, around, scan, scan_faces, goal);
-  if (!surroundings.has_scan()) return {};
+  if (!surroundings.may_help(patch_)) return {};
   Trial first = first_state(surroundings, goal);
   Trial now = with_shorter_edges(first, outline_, net, place, goal.most_vertices);
   if (now.vertices() == first.vertices()) return {};

@@ -30,6 +30,9 @@ namespace {
 // Over the wanted edge length.
 constexpr double longest_edge_to_contract = 1;
 
+// With smaller angles (see weak_places.hpp) a lattice failed as with faces that cross: what mends these mends them.
+constexpr double unusable_angle_deg = 0.5;
+
 // Most fits reach it without the mending.
 constexpr double least_angle_deg = 38.5;
 
@@ -170,6 +173,12 @@ Candidate by_lattice(const PreparedScanPointer& prepared, const SizingOptions& s
     mending.loosest_fidelity_of_diagonal = 2 * candidate.fit.fidelity_of_diagonal;
   }
   finish(candidate, plan, mending, progress);
+  std::vector<Vec3> bad;
+  if (candidate.failure.empty() &&
+      smallest_angle_beside_creases_deg(candidate, unusable_angle_deg, bad) < unusable_angle_deg) {
+    candidate.failure = std::to_string(bad.size()) + " triangles that no solver takes remained";
+    candidate.failed_at = std::move(bad);
+  }
   return candidate;
 }
 

@@ -61,6 +61,10 @@ constexpr double few_beyond = 0.08, most_beyond = 0.15;
 // Of the faces: where more places are stuck, shorter edges in each cost more than another surface.
 constexpr double most_stuck = 0.01;
 
+// How many places more may be tried in vain than come nearer, before another surface is made and on the last one: each
+// costs as much as a surface of several hundred triangles.
+constexpr std::size_t few_in_vain = 12, most_in_vain = 40;
+
 // Where triangles as large as the deviation allows are too large for the part's edges, smaller ones keep their shape.
 // The bound is where isotropic remeshing with kept edges ends (CGAL: 1.18 to 1.21 on plates, cubes and cylinders).
 constexpr double worst_mean_edge_ratio = 1.18;
@@ -161,7 +165,7 @@ Candidate SurfaceSearch::run(const Progress& progress) {
     progress.improve([&](const Progress& in_time) {
       // The places of a contraction are not what keeps it far.
       if (best.share_beyond <= most_beyond && (!best.gave_way() || wanted_.deviation->required))
-        bring_within(best, wanted_.deviation->required ? 1 : most_stuck, in_time);
+        bring_within(best, wanted_.deviation->required ? 1 : most_stuck, most_in_vain, in_time);
       mend_shape(best, in_time);
     });
   if (!holds(best) && wanted_.deviation->required)
@@ -290,7 +294,7 @@ void SurfaceSearch::judge_deviation(Trial& made, const Progress& progress) {
   made.share_beyond = share_beyond(note_deviation(made).to_reference, wanted_.deviation->distance);
   made.mean_edge_ratio = measure_triangles(made.candidate.mesh).edge_ratio.mean;
   if (holds(made) || made.gave_way() || !is_shapely(made) || made.share_beyond > most_to_mend_) return;
-  progress.improve([&](const Progress& in_time) { bring_within(made, most_stuck, in_time); });
+  progress.improve([&](const Progress& in_time) { bring_within(made, most_stuck, few_in_vain, in_time); });
   if (!holds(made)) most_to_mend_ = made.share_beyond / 2;  // more of the kind cannot either
 }
 
@@ -311,7 +315,8 @@ DeviationBound SurfaceSearch::note_deviation(Trial& made) const {
 }
 
 // What the edge lengths leave too far is brought near place by place; then the exact volume.
-void SurfaceSearch::bring_within(Trial& made, double share_to_yield, const Progress& progress) const {
+void SurfaceSearch::bring_within(Trial& made, double share_to_yield, std::size_t in_vain,
+                                 const Progress& progress) const {
   constexpr int trials = 3;  // the shift that restores the volume takes a little of the deviation, or more
   constexpr double least_angle_deg = 30;
   // What the patches' fits must follow, over the deviation; no looser than mending is (MendOptions), and not so tight
@@ -325,6 +330,7 @@ void SurfaceSearch::bring_within(Trial& made, double share_to_yield, const Progr
   LocalRefinementOptions options;
   options.least_angle_deg = least_angle_deg;
   options.fidelity_of_diagonal = std::clamp(fidelity * deviation / scan.reference().diagonal, tightest, loosest);
+  options.most_in_vain = in_vain;
   options.most_to_yield = static_cast<std::size_t>(share_to_yield * static_cast<double>(made.candidate.faces()));
   for (int trial = 0; trial < trials; ++trial) {
     options.limit = (1 - for_volume * std::pow(2, trial)) * deviation;

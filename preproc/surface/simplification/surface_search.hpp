@@ -80,7 +80,7 @@ class SurfaceSearch {
   Trial judged(Candidate candidate, const Progress& progress);
   void judge_deviation(Trial& made, const Progress& progress);
   DeviationBound note_deviation(Trial& made) const;
-  void bring_within(Trial& made, double share_to_yield, const Progress& progress) const;
+  void bring_within(Trial& made, double share_to_yield, std::size_t in_vain, const Progress& progress) const;
   void mend_shape(Trial& made, const Progress& progress) const;
   bool holds(const Trial& made) const;
   bool is_shapely(const Trial& made) const;
