@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace scan2fea {
 namespace {
@@ -87,6 +88,36 @@ TEST(RepairIntersections, ASurfaceAndItsCopyAreOne) {
     expect_sound(mesh);
     EXPECT_EQ(mesh.triangles.size(), ball.triangles.size());
     EXPECT_NEAR(enclosed_volume(mesh), enclosed_volume(ball), 1e-9);
+  }
+}
+
+// A part that was exported twice, the second time a little beside: the union would have steps along all its edges.
+TEST(RepairIntersections, ABodyAndItsCopyALittleBesideAreOne) {
+  const SurfaceMesh box = analytic::box({30, 20, 10}, 1), ball = analytic::sphere(10, 4),
+                    lens = analytic::lens(30, 40, 10);
+  for (const SurfaceMesh& body : {box, ball, lens}) {
+    const double diagonal = bounding_box(body.vertices).diagonal();
+    const Vec3 beside = diagonal * Vec3(3e-4, -2e-4, 1e-4);
+    SurfaceMesh mesh = analytic::join(body, analytic::moved(body, beside));
+    const RepairResult result = repair(mesh);
+    EXPECT_EQ(mesh.vertices, body.vertices);
+    EXPECT_EQ(mesh.triangles, body.triangles);
+    ASSERT_EQ(result.count(RepairKind::RepeatedShell), 1U);
+    EXPECT_NEAR(result.total_size(RepairKind::RepeatedShell), surface_area(body), 1e-6 * surface_area(body));
+    EXPECT_NEAR(result.changes.back().volume, enclosed_volume(body), 1e-6 * enclosed_volume(body));
+  }
+}
+
+// Farther apart they are two bodies; so are thin ones whose other sides are as near.
+TEST(RepairIntersections, BodiesThatAreNoCopiesAreUnited) {
+  const SurfaceMesh plate = analytic::box({30, 20, 0.03}, 1);
+  const SurfaceMesh box = analytic::box({30, 20, 10}, 1);
+  for (const auto& [body, beside] : {std::pair(box, Vec3(0.05, 0.05, 0.05)), std::pair(plate, Vec3(5, 4, 0.01))}) {
+    SurfaceMesh mesh = analytic::join(body, analytic::moved(body, beside));
+    const RepairResult result = repair(mesh);
+    expect_sound(mesh);
+    EXPECT_EQ(result.count(RepairKind::RepeatedShell), 0U);
+    EXPECT_GT(enclosed_volume(mesh), 1.001 * enclosed_volume(body));
   }
 }
 

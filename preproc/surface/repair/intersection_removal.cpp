@@ -6,6 +6,7 @@
 #include "preproc/surface/repair/face_marks.hpp"
 #include "preproc/surface/repair/fold_smoothing.hpp"
 #include "preproc/surface/repair/hole_filling.hpp"
+#include "preproc/surface/repair/repeated_shells.hpp"
 #include "preproc/surface/repair/soup_adjacency.hpp"
 #include "quality/self_intersections.hpp"
 
@@ -132,7 +133,8 @@ IntersectionRemoval remove_intersections(SurfaceMesh& mesh, RepairResult& result
   result.intersecting_pairs = pairs.size();
   if (pairs.empty()) return {};
   const bool closed = Borders(mesh).empty();
-  if (closed) unite(mesh, pairs, Crossings::between_shells, result);
+  if (closed && drop_repeated_shells(mesh, pairs, result)) pairs = find_self_intersections(mesh);
+  if (closed && !pairs.empty()) unite(mesh, pairs, Crossings::between_shells, result);
   if (!pairs.empty() && part_touching_shells(mesh, pairs, result)) pairs = find_self_intersections(mesh);
   if (!pairs.empty() && part_touching_vertices(mesh, pairs, result)) pairs = find_self_intersections(mesh);
   if (!pairs.empty()) pairs = smooth_folds(mesh, std::move(pairs), result);

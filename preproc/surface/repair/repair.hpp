@@ -65,9 +65,10 @@ struct RepairOptions {
 // 4. Outwards. Shells are oriented by nesting: the outermost outwards, cavities inwards, parts within cavities
 // outwards.
 //
-// 5. Free of intersections. Solids that overlap are united, touching vertices drawn apart by a hundredth of their
-// edges, folds smoothed within an edge's length; what still crosses is cut out with a ring of neighbours and filled, in
-// rounds of growing rings. Pieces that this leaves inside a solid are dropped.
+// 5. Free of intersections. A solid that lies along all of another that it crosses is dropped (repeated_shells.hpp);
+// solids that overlap are united, touching vertices drawn apart by a hundredth of their edges, folds smoothed within an
+// edge's length; what still crosses is cut out with a ring of neighbours and filled, in rounds of growing rings. Pieces
+// that this leaves inside a solid are dropped.
 //
 // With `Holes::keep` the third step mends faces only, open components count as fragments no more, need enclose nothing,
 // and keep the orientation that most of their faces had unless they are so nearly closed that outwards means something;

@@ -8,7 +8,7 @@
 namespace scan2fea {
 namespace {
 
-constexpr NameTable<RepairKind, 20> names{{
+constexpr NameTable<RepairKind, 21> names{{
     {RepairKind::WeldedVertex, "welded vertex"},
     {RepairKind::SplitEdge, "split edge"},
     {RepairKind::UnusedVertex, "unused vertex"},
@@ -22,6 +22,7 @@ constexpr NameTable<RepairKind, 20> names{{
     {RepairKind::FilledCavity, "filled cavity"},
     {RepairKind::DroppedFragment, "dropped fragment"},
     {RepairKind::DroppedInside, "dropped inner piece"},
+    {RepairKind::RepeatedShell, "repeated shell"},
     {RepairKind::ThickenedSheet, "thickened sheet"},
     {RepairKind::ClosedHole, "closed hole"},
     {RepairKind::Wrapped, "wrapped"},
@@ -45,6 +46,7 @@ bool is_lost(RepairKind kind) {
     case RepairKind::FilledCavity:
     case RepairKind::DroppedFragment:
     case RepairKind::DroppedInside:
+    case RepairKind::RepeatedShell:
       return true;
     default:
       return false;

@@ -23,6 +23,7 @@ enum class RepairKind {
   FilledCavity,      // a cavity too small to matter, left out; size: its area
   DroppedFragment,   // an open or flat component that holds no volume (RepairOptions::fragment_of_area); size: its area
   DroppedInside,     // a piece that lay inside the solid after parts were joined or cut; size: its area
+  RepeatedShell,     // a body that crosses another and lies along all of it (repeated_shells.hpp); size: its area
   ThickenedSheet,    // an open sheet made a solid (RepairOptions::thickness); size: the thickness
   ClosedHole,        // size: the diagonal of its border's bounding box
   Wrapped,           // all of it, by a surface around it; size: the distance between them
