@@ -4,7 +4,7 @@
 // damaged_copies body NAME OUT             box, bolt, ring, lens or grid
 // damaged_copies damage IN OUT KIND SEED   prints the size of the damage: how far anything was moved, or how wide what
 //                                          was taken away is, in per cent of the body's diagonal; 0 where nothing is
-//                                          elsewhere than before
+//                                          elsewhere than before. And the diagonal, in model units
 #include "preproc/mesh/read_surface.hpp"
 #include "preproc/mesh/union_find.hpp"
 #include "preproc/mesh/write_surface.hpp"
@@ -394,7 +394,7 @@ int run(const std::vector<std::string>& arguments) {
     const double diagonal = bounding_box(mesh.vertices).diagonal();
     const double size = damaged(mesh, arguments[3], static_cast<unsigned>(std::stoul(arguments[4])));
     write_surface(mesh, arguments[2]);
-    std::printf("%.17g\n", 100 * size / diagonal);
+    std::printf("%.17g %.17g\n", 100 * size / diagonal, diagonal);
   } else {
     std::fprintf(stderr, "damaged_copies kinds | body NAME OUT | damage IN OUT KIND SEED\n");
     return 2;
