@@ -3,8 +3,8 @@
 #include "export/formats.hpp"
 #include "preproc/command/early_end.hpp"
 #include "preproc/command/figures.hpp"
+#include "preproc/command/input_warnings.hpp"
 #include "preproc/command/output_files.hpp"
-#include "preproc/mesh/coordinate_step.hpp"
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/read_surface.hpp"
 #include "preproc/mesh/write_surface.hpp"
@@ -33,18 +33,6 @@ PipelineResult run_naming_input(SurfaceMesh scan, const MakeMeshJob& job, const 
     error.amend(std::move(parts));
     throw;
   }
-}
-
-// Coordinates of which a step moves a corner by more than a hundredth of an edge show the step and not the part.
-void warn_of_coarse_coordinates(const SurfaceMesh& scan, const std::string& input) {
-  constexpr double of_edge = 0.01;
-  const double step = float_step(scan.vertices), edge = mean_edge_length(scan);
-  if (step > of_edge * edge)
-    std::fprintf(
-        stderr,
-        "scan2fea: warning: %s: the coordinates are 32-bit floats, and so far from the origin they have steps of "
-        "%.3g (mean edge: %.3g): the surface is stepped; subtract an offset before floats are written\n",
-        input.c_str(), step, edge);
 }
 
 void require_known_format(const MakeMeshJob& job) {
@@ -116,7 +104,8 @@ int make_mesh(MakeMeshJob job) {
 
   SurfaceMesh scan = read_surface(job.common.input);
   display.line(describe_input(scan, job.common));
-  warn_of_coarse_coordinates(scan, job.common.input.string());
+  for (const std::string& warning : input_warnings(scan, job.common.unit))
+    std::fprintf(stderr, "scan2fea: warning: %s: %s\n", job.common.input.c_str(), warning.c_str());
   if (job.features.read) job.pipeline.simplify->given_features = read_feature_lines(*job.features.read);
   if (job.pipeline.simplify) job.pipeline.simplify->size = job.size.target();
   if (job.enrich) job.pipeline.enrich = job.enrich_options;

@@ -1,0 +1,54 @@
+#include "preproc/command/input_warnings.hpp"
+
+#include "preproc/mesh/coordinate_step.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <map>
+
+namespace scan2fea::command {
+namespace {
+
+std::string rounded(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+void add_coarse_coordinates(const SurfaceMesh& scan, std::vector<std::string>& warnings) {
+  const std::optional<CoordinateStep> step = visible_coordinate_step(scan);
+  if (!step) return;
+  const double largest = step->length.maxCoeff();
+  const bool is_even = step->length.minCoeff() > 0.5 * largest;
+  const std::string size = "steps of " + std::string(is_even ? "" : "up to ") + rounded(largest) +
+                           " (mean edge: " + rounded(mean_edge_length(scan)) + ")";
+  warnings.push_back(step->digits
+                         ? "the coordinates were written with " + std::to_string(*step->digits) + " digits and have " +
+                               size + ": the surface is stepped; write more digits, or subtract an offset before"
+                         : "the coordinates are 32-bit floats, and so far from the origin they have " + size +
+                               ": the surface is stepped; subtract an offset before floats are written");
+}
+
+// Files carry no unit, and a solver takes any, so that only what cannot be is told: no scanner resolves what is smaller
+// than the waves of light, and a hundred kilometres are curved, so that they are no solid in Cartesian coordinates.
+void add_impossible_unit(const SurfaceMesh& scan, const std::string& unit, std::vector<std::string>& warnings) {
+  static const std::map<std::string, double> metres{{"um", 1e-6}, {"mm", 1e-3},   {"cm", 1e-2},
+                                                    {"m", 1},     {"in", 0.0254}, {"ft", 0.3048}};
+  constexpr double waves_of_light = 0.5e-6, curved_earth = 1e5;
+  const double diagonal = bounding_box(scan.vertices).diagonal(), size = diagonal * metres.at(unit);
+  if (size >= waves_of_light && size <= curved_earth) return;
+  warnings.push_back("the whole scan is " + rounded(diagonal) + " " + unit + " across, which is " +
+                     (size < waves_of_light ? "less than a wave of light" : "more than a hundred kilometres") +
+                     ": is --unit right?");
+}
+
+}  // namespace
+
+std::vector<std::string> input_warnings(const SurfaceMesh& scan, const std::optional<std::string>& unit) {
+  std::vector<std::string> warnings;
+  add_coarse_coordinates(scan, warnings);
+  if (unit) add_impossible_unit(scan, *unit, warnings);
+  return warnings;
+}
+
+}  // namespace scan2fea::command

@@ -1,0 +1,51 @@
+// What the command says of a scan before it works on it.
+#include "preproc/mesh/write_surface.hpp"
+#include "tests/analytic_meshes.hpp"
+#include "tests/run_command.hpp"
+#include "tests/temporary_folder.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+namespace scan2fea {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class InputWarnings : public ::testing::Test {
+ protected:
+  std::string said_of(const SurfaceMesh& scan, const std::string& flags = {}) const {
+    const std::string input = (folder_ / "scan.ply").string(), output = (folder_ / "out.ply").string();
+    write_surface(scan, input);
+    const CommandResult result =
+        run_command("simplify '" + input + "' -o '" + output + "' --force --faces 500 " + flags);
+    EXPECT_EQ(result.exit_code, 0) << result.standard_error;
+    return result.standard_error;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(InputWarnings, NameTheStepOfCoarseCoordinates) {
+  const SurfaceMesh ball = analytic::sphere(25, 5);
+  SurfaceMesh stepped = ball;
+  for (Vec3& p : stepped.vertices) p = (10 * p).array().round() / 10;
+  EXPECT_THAT(said_of(stepped), HasSubstr("written with 3 digits and have steps of 0.1 (mean edge: 0.9"));
+  EXPECT_THAT(said_of(ball), Not(HasSubstr("warning")));
+}
+
+TEST_F(InputWarnings, DoubtAUnitThatCannotBe) {
+  const SurfaceMesh ball = analytic::sphere(1e-4, 3), large = analytic::sphere(1e6, 3);
+  EXPECT_THAT(said_of(ball, "--unit mm"), HasSubstr("less than a wave of light: is --unit right?"));
+  EXPECT_THAT(said_of(ball, "--unit m"), Not(HasSubstr("--unit right?")));
+  EXPECT_THAT(said_of(large, "--unit m"), HasSubstr("more than a hundred kilometres: is --unit right?"));
+  EXPECT_THAT(said_of(large, "--unit mm"), Not(HasSubstr("--unit right?")));
+  EXPECT_THAT(said_of(large), Not(HasSubstr("--unit right?"))) << "any size is plausible in some unit";
+}
+
+}  // namespace
+}  // namespace scan2fea
