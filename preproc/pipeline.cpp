@@ -4,6 +4,7 @@
 #include "preproc/mesh/error_text.hpp"
 #include "preproc/surface/kernel/canonical_frame.hpp"
 #include "preproc/surface/repair/solid_volume.hpp"
+#include "preproc/surface/simplification/voxel_options.hpp"
 #include "preproc/tetrahedra_search.hpp"
 #include "preproc/volume/mid_edge_nodes.hpp"
 
@@ -151,7 +152,7 @@ void describe_features(const SimplifyResult& result, const InScan& in_scan, Stag
   if (!result.feature_remark.empty()) record.remarks.push_back(result.feature_remark);
 }
 
-void describe(const SimplifyResult& result, const TargetSize& size, const InScan& in_scan, StageRecord& record) {
+void describe(const SimplifyResult& result, const InScan& in_scan, StageRecord& record) {
   record.changes = {{"faces_before", static_cast<double>(result.faces_before)},
                     {"faces_after", static_cast<double>(result.faces_after)},
                     {"crossings_mended", static_cast<double>(result.crossings_mended)}};
@@ -159,11 +160,10 @@ void describe(const SimplifyResult& result, const TargetSize& size, const InScan
   if (!result.size_remark.empty()) record.remarks.push_back(result.size_remark);
   if (result.largest_deviation > 0)
     record.changes.emplace_back("largest_deviation", in_scan.unit() * result.largest_deviation);
-  const auto* aim = std::get_if<LargestDeviation>(&size);
-  if (aim != nullptr && result.largest_deviation > aim->distance)
-    record.remarks.push_back(
-        "the deviation that was aimed at is not reached everywhere: " + std::to_string(in_scan.unit() * aim->distance) +
-        "; smaller triangles (--faces, --edge-length) come nearer");
+  if (result.largest_deviation > result.aimed_deviation)
+    record.remarks.push_back("the deviation is " + rounded(in_scan.unit() * result.largest_deviation) + ", not " +
+                             rounded(in_scan.unit() * result.aimed_deviation) +
+                             " as aimed at; smaller triangles (--faces, --edge-length) come nearer");
   if (!result.fallback_reason.empty())
     record.remarks.push_back("the lattice gave way to collapse: " + result.fallback_reason);
 }
@@ -234,7 +234,8 @@ void note_left_out(const Progress& stage, const char* what, StageRecord& record,
 // of the user's are no part of it: with them, and where only tetrahedra are made, it stays where it is.
 class MeshMaker {
  public:
-  MeshMaker(const SurfaceMesh& scan, const PipelineOptions& options, PipelineResult& result, StageLog& log)
+  MeshMaker(const SurfaceMesh& scan, const std::optional<StairSteps>& stairs, const PipelineOptions& options,
+            PipelineResult& result, StageLog& log)
       : scan_(scan),
         options_(options),
         simplification_(options.simplify.value_or(SimplifyOptions{})),
@@ -242,6 +243,7 @@ class MeshMaker {
         result_(result),
         log_(log) {
     place();
+    adapt(stairs);
   }
 
   FilledSurface run(const Progress& progress);
@@ -249,6 +251,7 @@ class MeshMaker {
  private:
   void place();
   void take_lengths_to_frame();
+  void adapt(std::optional<StairSteps> stairs);
   void simplify(const Progress& progress);
   void tetrahedralize(const Progress& progress);
   void bring_back();
@@ -263,6 +266,7 @@ class MeshMaker {
   std::optional<CanonicalFrame> frame_;
   std::optional<SurfaceMesh> placed_;
   std::optional<Simplification> search_;
+  std::string voxel_remark_;
   FilledSurface made_;
   InScan in_scan_{frame_};
 };
@@ -293,6 +297,12 @@ void MeshMaker::take_lengths_to_frame() {
   if (inside.unit == InteriorSize::Unit::model) inside.value /= unit;
 }
 
+void MeshMaker::adapt(std::optional<StairSteps> stairs) {
+  if (!stairs) return;
+  for (double& step : stairs->size) step /= in_scan_.unit();
+  voxel_remark_ = adapt_to_voxels(stairs, simplification_);
+}
+
 FilledSurface MeshMaker::run(const Progress& progress) {
   try {
     simplify(progress);
@@ -316,7 +326,8 @@ void MeshMaker::simplify(const Progress& progress) {
     search_.emplace(scan(), simplification_);
     const Progress in_time = options_.tetrahedralize ? in_half_of_the_time(progress) : progress.until(progress.end());
     made_.simplified = search_->run(made_.surface, in_time);
-    describe(made_.simplified, simplification_.size, in_scan_, record);
+    describe(made_.simplified, in_scan_, record);
+    if (!voxel_remark_.empty()) record.remarks.push_back(voxel_remark_);
     note_left_out(in_time, "better edge lengths and places of the surface", record, result_);
     if (simplification_.given_features && simplification_.given_features->segments.empty())
       record.remarks.emplace_back("the file of features has no lines: no edges are kept");
@@ -348,6 +359,7 @@ void MeshMaker::bring_back() {
   frame_->bring_back(made_.filled.mesh.nodes, scan_);
   frame_->bring_back(made_.simplified.features.points, scan_);
   made_.simplified.largest_deviation *= frame_->unit();
+  made_.simplified.aimed_deviation *= frame_->unit();
 }
 
 }  // namespace
@@ -356,6 +368,7 @@ PipelineResult run_pipeline(SurfaceMesh scan, const PipelineOptions& options, co
                             const StageListener& listener) {
   PipelineResult result;
   StageLog log(result.stages, listener);
+  const auto stairs = options.simplify ? find_stair_steps(scan) : std::nullopt;
   if (options.repair)
     log.run("repair", [&](StageRecord& record) {
       SurfaceMesh given = scan;
@@ -371,7 +384,7 @@ PipelineResult run_pipeline(SurfaceMesh scan, const PipelineOptions& options, co
       enriched = result.scan;
       describe(enrich(enriched, *options.enrich, progress), record);
     });
-  FilledSurface made = MeshMaker(options.enrich ? enriched : result.scan, options, result, log).run(progress);
+  FilledSurface made = MeshMaker(options.enrich ? enriched : result.scan, stairs, options, result, log).run(progress);
   if (options.simplify || options.tetrahedralize)
     result.weak_places =
         checked_for_solvers(made.surface, options.tetrahedralize ? &made.filled.mesh : nullptr, result.scan, options);

@@ -230,6 +230,18 @@ SurfaceMesh sheet(double width, double depth, double edge_length) {
   return mesh;
 }
 
+SurfaceMesh voxels(const std::array<int, 3>& counts, const Vec3& size,
+                   const std::function<bool(const Vec3& centre)>& is_in) {
+  return voxel_surface(counts, size,
+                       [&](int x, int y, int z) { return is_in(size.cwiseProduct(Vec3(x + 0.5, y + 0.5, z + 0.5))); });
+}
+
+SurfaceMesh voxel_ball(int across) {
+  const double radius = across / 2.0;
+  return voxels({across, across, across}, Vec3::Ones(),
+                [&](const Vec3& p) { return (p - Vec3::Constant(radius)).norm() < radius; });
+}
+
 SurfaceMesh join(const SurfaceMesh& a, const SurfaceMesh& b) {
   SurfaceMesh both = a;
   both.vertices.insert(both.vertices.end(), b.vertices.begin(), b.vertices.end());

@@ -3,6 +3,9 @@
 
 #include "preproc/mesh/surface_mesh.hpp"
 
+#include <array>
+#include <functional>
+
 namespace scan2fea::analytic {
 
 // Axis-aligned box from the origin, each side split into squares of about `edge_length`, each square into two
@@ -36,6 +39,14 @@ SurfaceMesh sheet(double width, double depth, double edge_length);
 
 // A slab of `genus` square holes in a row, 1 thick, each square of side 1 and split into (1/edge_length)^2.
 SurfaceMesh slab_with_holes(int genus, double edge_length);
+
+// The faces between the voxels that are in and those that are not, each split into two triangles; `size`: of a voxel,
+// the first from the origin on, `counts` along each axis.
+SurfaceMesh voxels(const std::array<int, 3>& counts, const Vec3& size,
+                   const std::function<bool(const Vec3& centre)>& is_in);
+
+// A ball of so many voxels across, each 1 wide, in the middle of them.
+SurfaceMesh voxel_ball(int across);
 
 // Both surfaces in one mesh, vertices of `b` after those of `a`.
 SurfaceMesh join(const SurfaceMesh& a, const SurfaceMesh& b);

@@ -32,21 +32,21 @@ SurfaceMesh in_floats(SurfaceMesh mesh) {
 }
 
 TEST(CoordinateStep, OfFloatsIsThatOfTheFarthestCoordinate) {
-  const auto step = coordinate_step({{1.1F, 2.3F, 3.7F}, {-far_away, 4.123457F, 5.765433F}}, 1e-9);
+  const auto step = coordinate_step({{-6329171.5, 2.3F, 3.7F}, {-far_away, 4.123457F, 5.765433F}}, 1e-9);
   ASSERT_TRUE(step);
   EXPECT_FALSE(step->digits);
   EXPECT_DOUBLE_EQ(step->length.x(), 0.5);
   EXPECT_LE(step->length.z(), 1e-6);
-  EXPECT_DOUBLE_EQ(coordinate_step({{16777216, 0, 0}, {16777218, 0, 0}}, 1e-9)->length.x(), 2);
+  EXPECT_DOUBLE_EQ(coordinate_step({{16777216, 0, 0}, {16777318, 0, 0}}, 1e-9)->length.x(), 2);
 }
 
 TEST(CoordinateStep, OfDecimalsIsThatOfTheLastDigit) {
-  const auto step = coordinate_step({{12.3, 0.0456, 0}, {-98.7, 0.1, 20}}, 1e-9);
+  const auto step = coordinate_step({{12.3, 0.0456, 0}, {-98.7, 0.1, 200}}, 1e-9);
   ASSERT_TRUE(step);
-  EXPECT_EQ(step->digits, 1) << "of the axis with the coarsest";
+  EXPECT_EQ(step->digits, 3);
   EXPECT_NEAR(step->length.x(), 0.1, 1e-12);
   EXPECT_NEAR(step->length.y(), 0.001, 1e-12);
-  EXPECT_NEAR(step->length.z(), 10, 1e-12);
+  EXPECT_EQ(step->length.z(), 0) << "two steps of 100 across";
 }
 
 TEST(CoordinateStep, OfDecimalsInFloatsIsTheSame) {
@@ -85,6 +85,7 @@ TEST(VisibleCoordinateStep, IsThatOfFloatsFarAway) {
 TEST(VisibleCoordinateStep, IsNotThatOfRoundNumbersThatAreMeant) {
   EXPECT_FALSE(visible_coordinate_step(analytic::box({60, 40, 20}, 60)));
   EXPECT_FALSE(visible_coordinate_step(analytic::box({10, 10, 10}, 10)));
+  EXPECT_FALSE(visible_coordinate_step({{{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 1}}, {{0, 1, 2}, {0, 2, 3}}}));
   EXPECT_FALSE(visible_coordinate_step(analytic::box({30, 20, 10}, 1)));
   EXPECT_FALSE(visible_coordinate_step(with_digits(analytic::cylinder(10, 30, 48, 1), 4)));
 }

@@ -67,6 +67,11 @@ TEST(RepairLevels, WrapLeavesAloneWhatGentlerStepsMend) {
   EXPECT_EQ(mesh.triangles, same.triangles);
 }
 
+TEST(RepairLevels, WrapRefusesFacesWithoutArea) {
+  const SurfaceMesh line{{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}, {{0, 1, 2}}};
+  EXPECT_THAT(message_of_failure(line, {.level = RepairLevel::wrap}), HasSubstr("no face has an area"));
+}
+
 TEST(RepairLevels, WhatIsLeftOutAndMadeUpIsListedWithItsAreaAndVolume) {
   const SurfaceMesh open = without_faces(unit_box(8), [](const Vec3& c) {
     return c.z() > 1 - 1e-9 && std::abs(c.x() - 0.5) < 0.126 && std::abs(c.y() - 0.5) < 0.126;

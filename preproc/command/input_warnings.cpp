@@ -1,6 +1,7 @@
 #include "preproc/command/input_warnings.hpp"
 
 #include "preproc/mesh/coordinate_step.hpp"
+#include "preproc/mesh/stair_steps.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -22,11 +23,27 @@ void add_coarse_coordinates(const SurfaceMesh& scan, std::vector<std::string>& w
   const bool is_even = step->length.minCoeff() > 0.5 * largest;
   const std::string size = "steps of " + std::string(is_even ? "" : "up to ") + rounded(largest) +
                            " (mean edge: " + rounded(mean_edge_length(scan)) + ")";
-  warnings.push_back(step->digits
-                         ? "the coordinates were written with " + std::to_string(*step->digits) + " digits and have " +
-                               size + ": the surface is stepped; write more digits, or subtract an offset before"
-                         : "the coordinates are 32-bit floats, and so far from the origin they have " + size +
-                               ": the surface is stepped; subtract an offset before floats are written");
+  warnings.push_back(step->digits ? "the coordinates were written with " + std::to_string(*step->digits) +
+                                        (*step->digits == 1 ? " digit and" : " digits and") + " have " + size +
+                                        ": the surface is stepped; write more digits, or subtract an offset before"
+                                  : "the coordinates are 32-bit floats, and so far from the origin they have " + size +
+                                        ": the surface is stepped; subtract an offset before floats are written");
+}
+
+std::string describe(const StairSteps& steps) {
+  if (steps.kind == StairSteps::Kind::slices) return "slices that are " + rounded(steps.largest()) + " high";
+  return "faces of voxels of " + rounded(steps.size[0]) + " x " + rounded(steps.size[1]) + " x " +
+         rounded(steps.size[2]);
+}
+
+void add_stairs(const StairSteps& steps, std::vector<std::string>& warnings) {
+  const std::string step = rounded(steps.largest());
+  const bool voxels = steps.kind == StairSteps::Kind::voxels;
+  warnings.push_back(
+      "the surface is made of " + describe(steps) +
+      ": it has stairs where the part has slopes; smooth it where the image is at hand, or ask for no "
+      "more than a step: " +
+      (voxels ? "--deviation " + step + ", the default here, or more" : "--feature-angle off --deviation " + step));
 }
 
 // Files carry no unit, and a solver takes any, so that only what cannot be is told: no scanner resolves what is smaller
@@ -46,7 +63,10 @@ void add_impossible_unit(const SurfaceMesh& scan, const std::string& unit, std::
 
 std::vector<std::string> input_warnings(const SurfaceMesh& scan, const std::optional<std::string>& unit) {
   std::vector<std::string> warnings;
-  add_coarse_coordinates(scan, warnings);
+  if (const std::optional<StairSteps> steps = find_stair_steps(scan))
+    add_stairs(*steps, warnings);
+  else
+    add_coarse_coordinates(scan, warnings);
   if (unit) add_impossible_unit(scan, *unit, warnings);
   return warnings;
 }

@@ -42,8 +42,14 @@ struct AxisStep {
 };
 
 AxisStep axis_step(const std::vector<Vec3>& points, Eigen::Index axis, bool floats, double least) {
-  double farthest = 0;
-  for (const Vec3& p : points) farthest = std::max(farthest, std::abs(p[axis]));
+  constexpr double fewest_steps = 10;  // across the scan: fewer values may be meant, as on a box in whole numbers
+  double low = 0, high = 0;
+  if (!points.empty()) low = high = points[0][axis];
+  for (const Vec3& p : points) {
+    low = std::min(low, p[axis]);
+    high = std::max(high, p[axis]);
+  }
+  const double farthest = std::max(-low, high), coarsest = (high - low) / fewest_steps;
   if (farthest == 0) return {};
   AxisStep step{.length = floats ? float_step(farthest) : 0};
   int digits = 0;
@@ -54,7 +60,7 @@ AxisStep axis_step(const std::vector<Vec3>& points, Eigen::Index axis, bool floa
     if (decimal_step(farthest, digits) <= least) return step;  // more digits make it finer still
   }
   if (const double length = decimal_step(farthest, digits); length > step.length) step = {length, digits};
-  return step;
+  return step.length <= coarsest ? step : AxisStep{};
 }
 
 // What is between faces at an edge.

@@ -16,7 +16,8 @@ struct CoordinateStep {
 
 // Coordinates that are all 32-bit floats, as in any binary STL, have the steps of these: at 6 million half a unit.
 // Otherwise, or where these are finer, they have those of the decimal digits with which text was written: 12.3, 0.456
-// and 12 have three, and so a step of 0.1 at 12.3. Nothing where no step is above `least`. O(n).
+// and 12 have three, and so a step of 0.1 at 12.3. Nothing where no step is above `least`; nor is one where the scan is
+// fewer than ten steps across. O(n).
 std::optional<CoordinateStep> coordinate_step(const std::vector<Vec3>& points, double least);
 
 // The steps, where the surface shows them instead of the part: where at most of the edges that are neither flat nor

@@ -13,7 +13,7 @@ namespace {
 // By one byte; mostly the default, which is what nearly everybody uses.
 RepairOptions options_of(std::uint8_t byte) {
   RepairOptions options;
-  switch (byte % 8) {
+  switch (byte % 16) {
     case 0:
       options.level = RepairLevel::gentle;
       break;
@@ -25,6 +25,18 @@ RepairOptions options_of(std::uint8_t byte) {
       break;
     case 3:
       options.level = RepairLevel::off;
+      break;
+    case 4:
+      options.level = RepairLevel::wrap;
+      break;
+    case 5:
+      options.thickness = Thickness{0.25};
+      break;
+    case 6:
+      options.thickness = Thickness{1.5, ThickenTo::front};
+      break;
+    case 7:
+      options = {.level = RepairLevel::wrap, .thickness = Thickness{0.01, ThickenTo::back}};
       break;
     default:
       break;

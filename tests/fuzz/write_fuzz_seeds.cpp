@@ -95,7 +95,7 @@ void write_volumes(const fs::path& folder) {
 
 // What the bytes mean: repair_fuzz.cpp and soup_of_bytes.cpp.
 void write_soups(const fs::path& folder) {
-  for (const char options : {'\0', '\1', '\2', '\3', '\4'}) {
+  for (char options = 0; options <= 8; ++options) {  // 8: the default
     const std::string name(1, static_cast<char>('a' + options));
     const std::string box = std::string("\0\0\0", 3), next = std::string("\0\1\0", 3),
                       in = std::string("\0\x1f\x1f", 3);

@@ -1,5 +1,8 @@
 #include "preproc/surface/repair/wrap.hpp"
 
+#include "preproc/mesh/error.hpp"
+#include "preproc/mesh/error_text.hpp"
+
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/alpha_wrap_3.h>
@@ -13,7 +16,14 @@ void wrap(SurfaceMesh& mesh, RepairResult& result) {
   std::vector<Point> points;
   for (const Vec3& p : mesh.vertices) points.emplace_back(p.x(), p.y(), p.z());
   std::vector<std::array<std::size_t, 3>> faces;
-  for (const Triangle& t : mesh.triangles) faces.push_back({t[0], t[1], t[2]});
+  for (const Triangle& t : mesh.triangles)
+    if (!CGAL::collinear(points[t[0]], points[t[1]], points[t[2]])) faces.push_back({t[0], t[1], t[2]});
+  if (faces.empty())  // which CGAL is not made for
+    throw NotMeshable({.what = "nothing to wrap: no face has an area",
+                       .where = error_text((box.low + box.high) / 2),
+                       .value = std::to_string(mesh.triangles.size()) + " faces",
+                       .limit = {},
+                       .advice = "a scan of all sides of the part"});
   CGAL::Surface_mesh<Point> wrapped;
   CGAL::alpha_wrap_3(points, faces, ball_of_diagonal * box.diagonal(), distance_of_diagonal * box.diagonal(), wrapped);
 

@@ -186,10 +186,12 @@ Simplification::Simplification(const SurfaceMesh& scan, const SimplifyOptions& o
   const auto prepared = std::make_shared<const PreparedScan>(scan, state.parted ? *state.parted : scan,
                                                              std::move(features.edges), tolerance);
   WantedSurface wanted;
-  if (const auto* bound = std::get_if<LargestDeviation>(&size))
+  if (const auto* bound = std::get_if<LargestDeviation>(&size)) {
     wanted.deviation = *bound;
-  else
+    state.of_scan.aimed_deviation = bound->distance;
+  } else {
     wanted.triangles = state.wanted_triangles = wanted_faces(size, scan, area);
+  }
   if (!options.limits.empty())
     wanted.longest = longest_edges(prepared->mesh, options.limits, longest_edge_of_part * edge);
   state.search.emplace(prepared, std::move(wanted), state.options);

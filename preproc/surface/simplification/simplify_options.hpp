@@ -68,6 +68,7 @@ struct SimplifyResult {
   std::size_t faces_after = 0;
   std::size_t crossings_mended = 0;  // pairs of faces that passed through one another before any was mended
   double largest_deviation = 0;      // an upper bound, two-sided, model units; only where the size is a deviation
+  double aimed_deviation = 0;        // what it was to be
   std::size_t feature_edges = 0;     // of the scan, that were found or given; the sharp ones of the next two as well
   std::vector<UnsupportedCreases> unsupported_creases;  // taken for folds, roundings or noise (see judge_creases)
   std::size_t feature_edges_too_fine = 0;               // creases that triangles of the wanted size cannot keep
