@@ -164,6 +164,8 @@ void describe(const SimplifyResult& result, const InScan& in_scan, StageRecord& 
     record.remarks.push_back("the deviation is " + rounded(in_scan.unit() * result.largest_deviation) + ", not " +
                              rounded(in_scan.unit() * result.aimed_deviation) +
                              " as aimed at; smaller triangles (--faces, --edge-length) come nearer");
+  if (result.method == SimplifyMethod::collapse && result.fallback_reason.empty())
+    record.remarks.emplace_back("made by --method collapse, which --objective and --cost ask for");
   if (!result.fallback_reason.empty())
     record.remarks.push_back("the lattice gave way to collapse: " + result.fallback_reason);
 }
@@ -175,9 +177,11 @@ void describe(const TetrahedralizeResult& result, const InScan& in_scan, StageRe
                     {"nodes", static_cast<double>(result.mesh.nodes.size())},
                     {"surface_allows_min_dihedral_deg", result.bound.min_dihedral_deg},
                     {"surface_allows_scaled_jacobian", result.bound.scaled_jacobian}};
-  record.remarks = {
-      "the surface bounds the dihedral angle at " + error_text(in_scan.place(result.bound.min_dihedral_at)),
-      "and the scaled Jacobian at " + error_text(in_scan.place(result.bound.scaled_jacobian_at))};
+  record.remarks.clear();
+  if (const auto& at = result.bound.min_dihedral_at)
+    record.remarks.push_back("the surface bounds the dihedral angle at " + error_text(in_scan.place(*at)));
+  if (const auto& at = result.bound.scaled_jacobian_at)
+    record.remarks.push_back("the surface bounds the scaled Jacobian at " + error_text(in_scan.place(*at)));
 }
 
 // What was gained, and the same figures of the mesh that stands now as of the first.

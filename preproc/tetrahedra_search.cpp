@@ -104,7 +104,7 @@ RenewalResult renew_where_poor(Simplification& search, const SimplifyOptions& si
       latest.filled = tetrahedralize(latest.surface, tetrahedralization, progress.for_improvement());
     } catch (const MeshingFailed&) {
       break;
-    } catch (const OutOfTime&) {
+    } catch (const NotMeshable&) {
       break;
     }
     const double angle = smallest_dihedral(latest);

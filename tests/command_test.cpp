@@ -169,10 +169,15 @@ TEST_F(Command, WrongFlagsAreWrongUsage) {
   const std::string scan = scan_of_a_sphere();
   const std::string out = " -o '" + path("out.ply") + "'";
   EXPECT_EQ(run_command("").exit_code, 2);
-  EXPECT_EQ(run_command("fly").exit_code, 2);
+  const CommandResult unknown = run_command("fly");
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_THAT(unknown.standard_error, HasSubstr("no command 'fly'; there are: run, surface, "));
   EXPECT_EQ(run_command("surface '" + scan + "'").exit_code, 2) << "no output";
   EXPECT_EQ(run_command("surface '" + scan + "'" + out + " --faces 500 --ratio 0.5").exit_code, 2) << "two sizes";
   EXPECT_EQ(run_command("surface '" + scan + "'" + out + " --faces -3").exit_code, 2);
+  const CommandResult no_deviation = run_command("surface '" + scan + "'" + out + " --deviation 0");
+  EXPECT_EQ(no_deviation.exit_code, 2);
+  EXPECT_THAT(no_deviation.standard_error, HasSubstr("--deviation: '0' is no length above 0"));
   EXPECT_EQ(run_command("surface '" + scan + "'" + out + " --method magic").exit_code, 2);
   EXPECT_EQ(run_command("surface '" + scan + "' -o '" + path("out.xyz") + "' --faces 500").exit_code, 2);
   EXPECT_EQ(run_command("surface '" + scan + "'" + out + " --faces 500 --require 'beauty<=3'").exit_code, 2);
@@ -348,15 +353,26 @@ TEST_F(Command, EnrichKeepsTheMeasuredPoints) {
 TEST_F(Command, ObjectivesBelongToCollapse) {
   const std::string scan = scan_of_a_sphere();
   for (const std::string objective :
-       {"shannon", "a-entropy", "regularised-a-entropy", "entropy-weighted", "mean-edge-ratio", "midpoint"})
-    EXPECT_EQ(
-        run_command("surface '" + scan + "' -o '" + path(objective + ".ply") + "' --faces 500 --objective " + objective)
-            .exit_code,
-        0);
-  EXPECT_EQ(
-      run_command("surface '" + scan + "' -o '" + path("x.ply") + "' --faces 500 --method lattice --objective shannon")
-          .exit_code,
-      2);
+       {"shannon", "a-entropy", "regularised-a-entropy", "entropy-weighted", "mean-edge-ratio", "midpoint"}) {
+    const CommandResult result = run_command("surface '" + scan + "' -o '" + path(objective + ".ply") +
+                                             "' --faces 500 --objective " + objective);
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_THAT(result.standard_error, HasSubstr("made by --method collapse"));
+  }
+  const CommandResult refused =
+      run_command("surface '" + scan + "' -o '" + path("x.ply") + "' --faces 500 --method lattice --objective shannon");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.standard_error, HasSubstr("scan2fea: --objective: belongs to --method collapse"));
+}
+
+TEST_F(Command, TetrahedraNeedAClosedSurface) {
+  SurfaceMesh open = analytic::sphere(1, 3);
+  open.triangles.pop_back();
+  write_surface(open, path("open.ply"));
+  const CommandResult result = run_command("tetrahedralize '" + path("open.ply") + "' -o '" + path("out.vtu") + "'");
+  EXPECT_EQ(result.exit_code, 4);
+  EXPECT_THAT(last_line_of(result.standard_error), HasSubstr("not closed"));
+  EXPECT_FALSE(std::filesystem::exists(path("out.vtu")));
 }
 
 TEST_F(Command, CheckMeasuresAndGates) {

@@ -88,7 +88,8 @@ TEST(SurfaceBound, AWedgeIsFoundWithItsPlace) {
   const SurfaceBound bound = surface_bound(wedge);
   EXPECT_LE(bound.min_dihedral_deg, 20 + 1e-9);
   EXPECT_GE(bound.min_dihedral_deg, 10 - 1e-9);
-  EXPECT_NEAR(bound.min_dihedral_at.y(), 0, 1e-12);
+  ASSERT_TRUE(bound.min_dihedral_at);
+  EXPECT_NEAR(bound.min_dihedral_at->y(), 0, 1e-12);
 }
 
 TEST(SurfaceBound, AThinWallIsFound) {

@@ -172,6 +172,13 @@ std::string failure(const SurfaceMesh& surface, const TetrahedralizeOptions& opt
   return error.what();
 }
 
+// Where it is not the mesher that fails.
+std::string refusal(const SurfaceMesh& surface) {
+  const auto error = error_from<NotMeshable>([&] { tetrahedralize(surface); });
+  EXPECT_EQ(error.exit_code(), 4);
+  return error.what();
+}
+
 TEST(Tetrahedralize, SelfIntersectionIsReported) {
   EXPECT_THAT(
       failure(analytic::join(analytic::sphere(1, 2), analytic::moved(analytic::sphere(1, 2), {0.9, 0.01, 0.02}))),
@@ -179,17 +186,23 @@ TEST(Tetrahedralize, SelfIntersectionIsReported) {
 }
 
 TEST(Tetrahedralize, ShellsThatFaceTheSameWayAreReported) {
-  EXPECT_THAT(failure(analytic::join(analytic::sphere(3, 2), analytic::sphere(1, 2))), HasSubstr("same way"));
+  EXPECT_THAT(refusal(analytic::join(analytic::sphere(3, 2), analytic::sphere(1, 2))), HasSubstr("same way"));
 }
 
 TEST(Tetrahedralize, InsideOutIsReported) {
-  EXPECT_THAT(failure(analytic::reversed(analytic::sphere(1, 2))), HasSubstr("inside out"));
+  EXPECT_THAT(refusal(analytic::reversed(analytic::sphere(1, 2))), HasSubstr("inside out"));
 }
 
-TEST(Tetrahedralize, OpenSurfaceIsReported) {
-  SurfaceMesh open = analytic::sphere(1, 2);
-  open.triangles.pop_back();
-  EXPECT_NE(failure(open), "");
+TEST(Tetrahedralize, OpenSurfaceIsReportedWithItsPlace) {
+  SurfaceMesh open = analytic::box({1, 1, 1}, 1);
+  std::erase_if(open.triangles, [&](const Triangle& t) {
+    return std::ranges::all_of(t, [&](std::uint32_t v) { return open.vertices[v].z() == 1; });
+  });
+  const std::string text = refusal(open);
+  EXPECT_THAT(text, HasSubstr("not closed"));
+  EXPECT_THAT(text, HasSubstr(", 1): ")) << "on its border";
+  EXPECT_THAT(text, HasSubstr("4 sides"));
+  EXPECT_THAT(refusal({}), HasSubstr("no triangles"));
 }
 
 class TetrahedralizeChild : public testing::Test {

@@ -68,14 +68,14 @@ KeptBodies parse_bodies(const std::string& text) {
 
 }  // namespace
 
-RelativeLength parse_length(const std::string& text, char suffix) {
+RelativeLength parse_length(const std::string& flag, const std::string& text, char suffix) {
   RelativeLength length;
   length.relative = !text.empty() && text.back() == suffix;
   const std::string number = length.relative ? text.substr(0, text.size() - 1) : text;
   char* end = nullptr;
   length.value = std::strtod(number.c_str(), &end);
   if (number.empty() || *end != '\0' || !std::isfinite(length.value) || length.value <= 0)
-    throw CLI::ValidationError("'" + text + "' is no length above 0; try 0.5 or 0.5" + std::string(1, suffix));
+    throw CLI::ValidationError(flag, "'" + text + "' is no length above 0, as 0.5 or 0.5" + suffix + " are");
   if (suffix == '%' && length.relative) length.value /= 100;
   return length;
 }
@@ -143,7 +143,8 @@ void add_size_flags(CLI::App& command, SizeFlags& flags) {
   CLI::Option* deviation =
       command
           .add_option_function<std::string>(
-              "--deviation", [&flags](const std::string& text) { flags.deviation = parse_length(text, '%'); },
+              "--deviation",
+              [&flags](const std::string& text) { flags.deviation = parse_length("--deviation", text, '%'); },
               "Largest distance to the scan, model units or % of the bounding box's diagonal; the default is 0.2%")
           ->type_name("D");
   const std::vector<CLI::Option*> sizes{faces, ratio, edge_length, deviation};
@@ -171,7 +172,7 @@ void add_repair_flags(CLI::App& command, RepairOptions& options) {
               options.largest_hole_of_diagonal.reset();
               return;
             }
-            const RelativeLength length = parse_length(text, '%');
+            const RelativeLength length = parse_length("--largest-hole", text, '%');
             if (!length.relative) throw CLI::ValidationError("--largest-hole", "takes a percentage or 'all'");
             options.largest_hole_of_diagonal = length.value;
           },
@@ -183,7 +184,7 @@ void add_repair_flags(CLI::App& command, RepairOptions& options) {
           [&options](const std::string& text) {
             const std::size_t colon = text.find(':');
             const std::string side = colon == std::string::npos ? "both" : text.substr(colon + 1);
-            const RelativeLength length = parse_length(text.substr(0, colon), '%');
+            const RelativeLength length = parse_length("--thickness", text.substr(0, colon), '%');
             const auto named = std::find_if(thicken_sides.begin(), thicken_sides.end(),
                                             [&](const auto& choice) { return choice.first == side; });
             if (length.relative || named == thicken_sides.end())
@@ -289,7 +290,7 @@ void add_simplify_flags(CLI::App& command, SimplifyOptions& options) {
   for (CLI::Option* needs_collapse : {objective, cost})
     needs_collapse->each([&options, method, needs_collapse](const std::string&) {
       if (method->count() > 0 && options.method != SimplifyMethod::collapse)
-        throw CLI::ValidationError(needs_collapse->get_name(), "belongs to --method collapse");
+        throw CLI::ValidationError("belongs to --method collapse");
       options.method = SimplifyMethod::collapse;
     });
   add_choice<Sizing>(command, "--sizing", options.sizing,
@@ -352,7 +353,7 @@ void add_tetrahedralize_flags(CLI::App& command, TetrahedralizeOptions& options,
       .add_option_function<std::string>(
           "--interior-size",
           [&options](const std::string& text) {
-            const RelativeLength length = parse_length(text, 'x');
+            const RelativeLength length = parse_length("--interior-size", text, 'x');
             options.interior_size = {
                 .value = length.value,
                 .unit = length.relative ? InteriorSize::Unit::of_surface : InteriorSize::Unit::model};

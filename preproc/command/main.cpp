@@ -13,6 +13,7 @@
 #include <exception>
 #include <new>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace scan2fea::command {
@@ -20,6 +21,18 @@ namespace {
 
 constexpr int wrong_usage = 2;
 constexpr int no_mesh = 4;
+
+// CLI11 would only say that a command is missing.
+bool is_known(const CLI::App& root, const std::string& command) {
+  if (command.starts_with("-")) return true;
+  std::string names;
+  for (const CLI::App* known : root.get_subcommands({})) {
+    if (known->get_name() == command) return true;
+    names += (names.empty() ? "" : ", ") + known->get_name();
+  }
+  std::fprintf(stderr, "scan2fea: there is no command '%s'; there are: %s\n", command.c_str(), names.c_str());
+  return false;
+}
 
 int run_command(int argc, char** argv) {
   CLI::App root("From a scanned surface to a mesh that a finite-element solver accepts.", "scan2fea");
@@ -31,6 +44,7 @@ int run_command(int argc, char** argv) {
   const std::vector<SubCommand> commands{add_run(root),    add_surface(root),  add_repair(root),
                                          add_enrich(root), add_simplify(root), add_tetrahedralize(root),
                                          add_check(root),  add_convert(root)};
+  if (argc > 1 && !is_known(root, argv[1])) return wrong_usage;
   try {
     root.parse(argc, argv);
   } catch (const CLI::Success& e) {

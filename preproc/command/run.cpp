@@ -8,6 +8,8 @@ SubCommand add_run(CLI::App& root) {
   const auto job = std::make_shared<MakeMeshJob>();
   CLI::App* app = root.add_subcommand("run", "The whole chain: a scan in, a mesh for a solver out");
   add_surface_flags(*app, *job);
+  app->get_option("--holes")->description(
+      "What becomes of holes: close; with keep no volume fits in (scan2fea surface)");
   add_tetrahedralize_flags(*app, *job->pipeline.tetrahedralize, job->pipeline.order);
   add_msh_version_flag(*app, job->msh_version);
   return {app, [job] {

@@ -11,19 +11,17 @@ namespace {
 
 enum class Side : std::uint8_t { unknown, behind, in_front };
 
-MeshingFailed failed(std::string what, std::string advice) {
-  return MeshingFailed({.what = std::move(what), .where = {}, .value = {}, .limit = {}, .advice = std::move(advice)});
-}
-
-MeshingFailed failed_at(const std::vector<Vec3>& nodes, const std::vector<Triangle>& triangles, std::size_t i,
-                        std::string what, std::string advice) {
+// Of one kind of Error.
+template <class Failure>
+Failure failed_at(const std::vector<Vec3>& nodes, const std::vector<Triangle>& triangles, std::size_t i,
+                  std::string what, std::string advice) {
   const Triangle& t = triangles[i];
-  return MeshingFailed({.what = std::move(what),
-                        .where = "triangle " + std::to_string(i),
-                        .value = {},
-                        .limit = {},
-                        .advice = std::move(advice),
-                        .at = Vec3((nodes[t[0]] + nodes[t[1]] + nodes[t[2]]) / 3)});
+  return Failure({.what = std::move(what),
+                  .where = "triangle " + std::to_string(i),
+                  .value = {},
+                  .limit = {},
+                  .advice = std::move(advice),
+                  .at = Vec3((nodes[t[0]] + nodes[t[1]] + nodes[t[2]]) / 3)});
 }
 
 void make_positive(const std::vector<Vec3>& nodes, std::vector<Tetrahedron>& tetrahedra) {
@@ -93,9 +91,9 @@ TetMesh fill_regions(std::vector<Vec3> nodes, std::vector<Tetrahedron> tetrahedr
     if (reached[seed]) continue;
     const Region region = flood(seed, tetrahedra, triangles, links, reached);
     if (region.disagreeing != no_link)
-      throw failed_at(nodes, triangles, region.disagreeing,
-                      "a shell lies within another one and both face the same way",
-                      "turn the inner shell around for a cavity, or remove it");
+      throw failed_at<NotMeshable>(nodes, triangles, region.disagreeing,
+                                   "a shell lies within another one and both face the same way",
+                                   "turn the inner shell around for a cavity, or remove it");
     if (region.side == Side::behind)
       for (const std::uint32_t t : region.tetrahedra) filled[t] = true;
   }
@@ -110,11 +108,15 @@ TetMesh fill_regions(std::vector<Vec3> nodes, std::vector<Tetrahedron> tetrahedr
     mesh.tetrahedra.push_back(tetrahedra[t]);
   }
   if (mesh.tetrahedra.empty())
-    throw failed("the surface encloses nothing", "scan2fea repair: it may be open or inside out");
+    throw NotMeshable({.what = "the surface encloses nothing: it is inside out",
+                       .where = {},
+                       .value = {},
+                       .limit = {},
+                       .advice = "scan2fea repair"});
   for (std::size_t i = 0; i < triangles.size(); ++i)
     if (mesh.boundary[i].tetrahedron == no_link)
-      throw failed_at(nodes, triangles, i, "the mesher did not keep a boundary triangle",
-                      "scan2fea check on the surface, or allow the boundary to be split");
+      throw failed_at<MeshingFailed>(nodes, triangles, i, "the mesher did not keep a boundary triangle",
+                                     "scan2fea check on the surface, or allow the boundary to be split");
 
   std::vector<std::uint32_t> renumbered(nodes.size(), no_link);
   for (const Tetrahedron& t : mesh.tetrahedra)

@@ -4,6 +4,7 @@
 #include "preproc/mesh/surface_mesh.hpp"
 
 #include <cstdint>
+#include <optional>
 
 namespace scan2fea {
 
@@ -12,9 +13,9 @@ namespace scan2fea {
 // for more than each does alone.
 struct SurfaceBound {
   double min_dihedral_deg = 70.528779365509308;  // the regular tetrahedron's
-  Vec3 min_dihedral_at = Vec3::Zero();           // the middle of an edge
+  std::optional<Vec3> min_dihedral_at;           // the middle of an edge; unset: nowhere below the regular one
   double scaled_jacobian = 1;
-  Vec3 scaled_jacobian_at = Vec3::Zero();
+  std::optional<Vec3> scaled_jacobian_at;
 };
 
 // At a convex edge of interior dihedral angle theta either several elements share the angle, so that one of them has

@@ -1,6 +1,7 @@
 #include "preproc/volume/tetrahedralize.hpp"
 
 #include "preproc/mesh/error.hpp"
+#include "preproc/mesh/face_neighbours.hpp"
 #include "preproc/volume/estimate_tetrahedra.hpp"
 #include "preproc/volume/fill_regions.hpp"
 
@@ -71,13 +72,33 @@ SplitBoundary split_boundary(const TetgenOutput& output, const SurfaceMesh& surf
   return split;
 }
 
+// TetGen would only say that nothing is enclosed.
+void require_closed(const SurfaceMesh& surface) {
+  if (surface.triangles.empty())
+    throw NotMeshable({.what = "the surface has no triangles", .where = {}, .value = {}, .limit = {}, .advice = {}});
+  std::size_t open = 0;
+  Vec3 place = Vec3::Zero();
+  const std::vector<Triangle> neighbours = face_neighbours(surface, VertexStars(surface));
+  for (std::size_t f = 0; f < neighbours.size(); ++f)
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (neighbours[f][k] != no_face) continue;
+      const Triangle& t = surface.triangles[f];
+      if (open++ == 0) place = (surface.vertices[t[(k + 1) % 3]] + surface.vertices[t[(k + 2) % 3]]) / 2;
+    }
+  if (open > 0)
+    throw NotMeshable({.what = "the surface is not closed and manifold: no volume fits in it",
+                       .where = {},
+                       .value = std::to_string(open) + " sides of triangles without just one other beside them",
+                       .limit = "none",
+                       .advice = "scan2fea repair",
+                       .at = place});
+}
+
 }  // namespace
 
 TetrahedralizeResult tetrahedralize(const SurfaceMesh& surface, const TetrahedralizeOptions& options,
                                     const Progress& progress) {
-  if (surface.triangles.empty())
-    throw MeshingFailed({.what = "the surface has no triangles", .where = {}, .value = {}, .limit = {}, .advice = {}});
-
+  require_closed(surface);
   TetrahedralizeResult result;
   result.bound = surface_bound(surface);
   progress("interior points", 0);

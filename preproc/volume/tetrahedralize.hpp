@@ -53,9 +53,10 @@ struct TetrahedralizeResult {
 // inwards are cavities and stay empty; disjoint bodies are all filled. Its triangles become `mesh.boundary` in their
 // order (unless split), its vertices the first nodes. `progress` announces the estimated count before the mesher
 // runs. TetGen must be done by the end of `progress`; the optimisation ends
-// with a valid mesh when there is no time for it. Else the same mesh for the same input. Throws MeshingFailed (see
-// TetgenLimits and fill_regions), OutOfTime, Cancelled. About 15 s for a million tetrahedra. Not guaranteed:
-// any shape of the tetrahedra but that they are positive; see SurfaceBound for what the surface allows.
+// with a valid mesh when there is no time for it. Else the same mesh for the same input. Throws NotMeshable where the
+// surface is open, not manifold or inside out, MeshingFailed (see TetgenLimits and fill_regions), OutOfTime, Cancelled.
+// About 15 s for a million tetrahedra. Not guaranteed: any shape of the tetrahedra but that they are positive; see
+// SurfaceBound for what the surface allows.
 TetrahedralizeResult tetrahedralize(const SurfaceMesh& surface, const TetrahedralizeOptions& options = {},
                                     const Progress& progress = {});
 
