@@ -2,6 +2,7 @@
 
 #include "preproc/surface/features/find_features.hpp"
 #include "preproc/surface/kernel/micro_edges.hpp"
+#include "preproc/surface/sizing/sizing_field.hpp"
 #include "quality/validity.hpp"
 #include "tests/analytic_meshes.hpp"
 
@@ -19,9 +20,9 @@ struct Parted {
   std::vector<double> length;
 };
 
-Parted part(SurfaceMesh mesh, double longest, double shortest = 0.01) {
+Parted part(SurfaceMesh mesh, double longest, double shortest = 0.01, double most_triangles = 1e9) {
   std::vector<FeatureEdge> creases = find_features(mesh).edges;
-  std::vector<double> length = part_by_shape(mesh, creases, 1.5, shortest, longest);
+  std::vector<double> length = part_by_shape(mesh, creases, 1.5, shortest, longest, most_triangles);
   return {std::move(mesh), std::move(length)};
 }
 
@@ -49,6 +50,15 @@ TEST(ShapeLengths, OfAPlateAreShortAlongItsSidesAlone) {
   // Creases part its sides, so that it is no wall that a lattice could join.
   EXPECT_GT(least_inside, 20);
   EXPECT_LE(most_inside, 30);
+}
+
+TEST(ShapeLengths, AskForNoMoreTrianglesThanMayBe) {
+  const SurfaceMesh plate = analytic::box({100, 60, 0.2}, 100);
+  const std::size_t free = part(plate, 30).mesh.triangles.size();
+  const Parted bounded = part(plate, 30, 0.01, 1000);
+  EXPECT_GT(free, 10000u);
+  EXPECT_LT(bounded.mesh.triangles.size(), 6000u) << "halved edges have about three quarters of the largest length";
+  EXPECT_LT(predicted_triangles(bounded.mesh, {bounded.length}), 1001);
 }
 
 TEST(ShapeLengths, OfARoundBarFollowItsTurning) {

@@ -46,8 +46,8 @@ ScanByShape prepare_by_shape(const PreparedScan& scan, const SizingOptions& sizi
   std::vector<FeatureEdge> creases = options.given_features
                                          ? match_features(*mesh, VertexStars(*mesh), *options.given_features)
                                          : find_features(*mesh, options.features).edges;
-  std::vector<double> length =
-      part_by_shape(*mesh, creases, longest_scan_edge, std::min(longest, shortest_edge * diagonal), longest);
+  std::vector<double> length = part_by_shape(*mesh, creases, longest_scan_edge,
+                                             std::min(longest, shortest_edge * diagonal), longest, most_triangles);
   std::sort(creases.begin(), creases.end());
   const std::vector<double> wanted = wanted_at(*mesh, scan, sizing);
   for (std::size_t v = 0; v < length.size(); ++v) length[v] = std::min(length[v], wanted[v]);

@@ -3,6 +3,7 @@
 #include "preproc/surface/kernel/components.hpp"
 #include "preproc/surface/kernel/cut_surface.hpp"
 #include "preproc/surface/kernel/parallel_blocks.hpp"
+#include "preproc/surface/sizing/sizing_field.hpp"
 #include "preproc/surface/sizing/split_long_edges.hpp"
 #include "quality/triangle_measures.hpp"
 #include "quality/triangle_tree.hpp"
@@ -174,7 +175,7 @@ class ShapeLengths {
 }  // namespace
 
 std::vector<double> part_by_shape(SurfaceMesh& mesh, std::vector<FeatureEdge>& creases, double edges, double shortest,
-                                  double longest) {
+                                  double longest, double most_triangles) {
   constexpr int most_rounds = 4;  // a long triangle hides what it lies between until it is parted
   ShapeLengths shape(shortest, longest);
   std::vector<double> length(mesh.vertices.size(), longest);
@@ -185,6 +186,9 @@ std::vector<double> part_by_shape(SurfaceMesh& mesh, std::vector<FeatureEdge>& c
     std::sort(creases.begin(), creases.end());
     shape.renew(mesh, creases, length);
     length = shape.of_vertices(mesh.vertices.size());
+    const double triangles = predicted_triangles(mesh, {length});
+    if (triangles > most_triangles)
+      for (double& l : length) l *= std::sqrt(triangles / most_triangles);
   }
 }
 

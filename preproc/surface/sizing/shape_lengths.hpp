@@ -15,10 +15,12 @@ namespace scan2fea {
 //    its sides;
 //  - 1.3 times the way along the surface in which it turns by 45 degrees without a crease;
 //  - 0.6 of the width of the strip that it lies in, where two creases run side by side within 30 degrees.
+// Where all that asked for more than `most_triangles` triangles, the lengths are longer by one factor, beyond `longest`
+// if need be.
 // Vertices and triangles keep their numbers, new ones follow; `creases` are sorted, and halved with their edges.
 // Precondition: manifold, turned outwards. O(n log n) and the faces within `longest`, for a few rounds; parallel.
 std::vector<double> part_by_shape(SurfaceMesh& mesh, std::vector<FeatureEdge>& creases, double edges, double shortest,
-                                  double longest);
+                                  double longest, double most_triangles);
 
 // Whether a surface is a part's, made of plane, cylindrical and other smooth faces, and not a scan's of a free form: a
 // third of the length of its edges bends by less than half a degree, or by what a crease does. Of the surfaces of
