@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -327,6 +328,32 @@ TEST(RepairStitching, EndsThatLieUponOneAnotherAreNotJoined) {
   const RepairResult result = repair(mesh, {.holes = Holes::keep});
   EXPECT_EQ(result.count(RepairKind::WeldedVertex), 0u);
   EXPECT_EQ(result.count(RepairKind::SplitEdge), 0u);
+}
+
+// Patches rounded to the same digits, each from a place of its own: corners lie up to a 500th of the diagonal apart,
+// more than gaps are else taken for seams.
+TEST(RepairStitching, PatchesOfFewDigitsAreJoined) {
+  const SurfaceMesh ball = analytic::sphere(25, 4);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> offset(-0.03, 0.03);
+  std::array<Vec3, 8> offsets;
+  for (Vec3& o : offsets) o = Vec3(offset(random), offset(random), offset(random));
+  const auto octant = [&](const Triangle& t) {
+    const Vec3 c = centre(ball, t);
+    return (c.x() > 0) + 2 * (c.y() > 0) + 4 * (c.z() > 0);
+  };
+  SurfaceMesh mesh = parted(ball, octant, [](const Vec3& p) { return p; });
+  std::vector<int> group(mesh.vertices.size());
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+    for (const std::uint32_t v : mesh.triangles[f]) group[v] = octant(ball.triangles[f]);
+  for (std::size_t v = 0; v < group.size(); ++v)
+    mesh.vertices[v] =
+        (10 * (mesh.vertices[v] + offsets[static_cast<std::size_t>(group[v])])).array().round().matrix() / 10;
+  const RepairResult result = repair(mesh);
+  expect_sound(mesh);
+  EXPECT_EQ(result.count(RepairKind::ClosedHole), 0u);
+  EXPECT_EQ(mesh.triangles.size(), ball.triangles.size());
+  EXPECT_NEAR(enclosed_volume(mesh), enclosed_volume(ball), 0.003 * enclosed_volume(ball));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "preproc/surface/repair/border_gaps.hpp"
 
+#include "preproc/mesh/coordinate_step.hpp"
 #include "preproc/surface/repair/face_marks.hpp"
 #include "preproc/surface/repair/soup_adjacency.hpp"
 
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace scan2fea {
 namespace {
@@ -46,7 +48,7 @@ class GapSearch {
     for (const std::uint32_t h : halfedges_)
       edges.push_back(box_about(mesh_.vertices[start_vertex(mesh_, h)], mesh_.vertices[end_vertex(mesh_, h)], 0, h));
     std::vector<double> reach(mesh_.vertices.size(), 0);
-    const double most = most_of_diagonal * bounding_box(mesh_.vertices).diagonal();
+    const double most = farthest_gap();
     for (std::size_t i = 0; i < ends_.size();) {
       const std::uint32_t v = ends_[i].vertex;
       double shortest = std::numeric_limits<double>::max();
@@ -71,6 +73,15 @@ class GapSearch {
   }
 
  private:
+  // Where coordinates have visible steps, corners that were one may lie a step apart along each axis.
+  double farthest_gap() const {
+    const double most = most_of_diagonal * bounding_box(mesh_.vertices).diagonal();
+    if (halfedges_.empty()) return most;
+    const std::optional<CoordinateStep> step = visible_coordinate_step(mesh_);
+    constexpr double rounding = 1 + 1e-9;
+    return step ? std::max(most, rounding * step->length.norm()) : most;
+  }
+
   double length(std::uint32_t h) const {
     return (mesh_.vertices[end_vertex(mesh_, h)] - mesh_.vertices[start_vertex(mesh_, h)]).norm();
   }

@@ -16,10 +16,11 @@ struct BorderGap {
   double distance = 0;     // from that point to the vertex
 };
 
-// All gaps up to a thousandth of the mesh's bounding-box diagonal and an eighth of the shorter of the border edges that
-// meet there, beyond which what lies apart may well be meant to; in ascending order of distance. Left out are those
-// across a wall: between two faces that lie upon one another, nowhere farther apart than three times the gap. Joining
-// them would close the opening of a thin-walled shell instead of a seam.
+// All gaps up to a thousandth of the mesh's bounding-box diagonal, or a step of coarse coordinates
+// (coordinate_step.hpp), and an eighth of the shorter of the border edges that meet there, beyond which what lies apart
+// may well be meant to; in ascending order of distance. Left out are those across a wall: between two faces that lie
+// upon one another, nowhere farther apart than three times the gap. Joining them would close the opening of a
+// thin-walled shell instead of a seam.
 //
 // Costs O(b log^3 b) for b border edges (Zomorodian and Edelsbrunner's streamed segment trees, from CGAL).
 std::vector<BorderGap> find_border_gaps(const SurfaceMesh& mesh);
