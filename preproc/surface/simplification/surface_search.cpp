@@ -139,7 +139,9 @@ Candidate SurfaceSearch::run(const Progress& progress) {
   if (options_.method != SimplifyMethod::lattice) return std::move(best.candidate);
   bool was_by_shape = false;
   int in_vain = 0;
-  while (!is_accepted(latest) && in_vain <= patience(latest.candidate.faces()) && progress.may_improve()) {
+  const auto is_missing = [&] { return wanted_.deviation && wanted_.deviation->required && !holds(best); };
+  while (!is_accepted(latest) && (is_missing() || in_vain <= patience(latest.candidate.faces())) &&
+         progress.may_improve()) {
     std::vector<double> length = length_;
     const SizingOptions sizing = sizing_;
     lower_lengths(latest);
@@ -165,10 +167,11 @@ Candidate SurfaceSearch::run(const Progress& progress) {
     progress.improve([&](const Progress& in_time) {
       // The places of a contraction are not what keeps it far.
       if (best.share_beyond <= most_beyond && (!best.gave_way() || wanted_.deviation->required))
-        bring_within(best, wanted_.deviation->required ? 1 : most_stuck, most_in_vain, in_time);
+        is_missing() ? bring_within(best, 1, best.candidate.faces(), in_time)
+                     : bring_within(best, most_stuck, most_in_vain, in_time);
       mend_shape(best, in_time);
     });
-  if (!holds(best) && wanted_.deviation->required)
+  if (is_missing())
     throw NotMeshable({.what = "the deviation was not reached",
                        .where = {},
                        .value = std::to_string(best.candidate.largest_deviation / wanted_.deviation->distance) +
@@ -295,7 +298,8 @@ void SurfaceSearch::judge_deviation(Trial& made, const Progress& progress) {
   made.mean_edge_ratio = measure_triangles(made.candidate.mesh).edge_ratio.mean;
   if (holds(made) || made.gave_way() || !is_shapely(made) || made.share_beyond > most_to_mend_) return;
   progress.improve([&](const Progress& in_time) { bring_within(made, most_stuck, few_in_vain, in_time); });
-  if (!holds(made)) most_to_mend_ = made.share_beyond / 2;  // more of the kind cannot either
+  if (!holds(made) && !wanted_.deviation->required)
+    most_to_mend_ = made.share_beyond / 2;  // more of the kind cannot either
 }
 
 DeviationBound SurfaceSearch::note_deviation(Trial& made) const {
