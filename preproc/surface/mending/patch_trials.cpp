@@ -40,10 +40,10 @@ constexpr double pulled_within = 0.93, well_within = 0.75;
 // Folds are opened a little more than is wanted, at each time round by at most so much of an edge.
 constexpr double opened_beyond_deg = 2, longest_opening = 0.2;
 
-// So many of the scan's points may be too far from a patch, for each of its faces. Of 35 patches with more one came
-// within the limit, and they took half of the time of all 795: the tip of a thorn that the surface cuts off is cut into
-// as many points as the triangles around it are small.
-constexpr std::size_t most_far_a_face = 8;
+// Of the scan, an area of so many times the patch's may be too far from it. Of 35 patches with more one came within the
+// limit, and they took half of the time of all 795: the tip of a thorn that the surface cuts off, many times as large
+// as the triangles around it.
+constexpr double most_far_area = 2;
 
 // Sides of faces by edge, so that the two of one edge are neighbours in the list.
 struct Side {
@@ -124,9 +124,10 @@ Surroundings::Surroundings(const SurfaceMesh& mesh, const PatchOutline& outline,
 
 bool Surroundings::may_help(const SurfaceMesh& patch) const {
   if (!scan_ || !scan_->fit()) return false;
-  const std::size_t most_far = most_far_a_face * patch.triangles.size();
-  if (goal_.for_shape || scan_->to_answer().size() <= most_far) return true;
-  return scan_points_beyond(patch, goal_.limit).size() <= most_far;
+  const double most_far = most_far_area * surface_area(patch), answered = surface_area(scan_->answered());
+  if (goal_.for_shape || answered <= most_far) return true;
+  const auto far = static_cast<double>(scan_points_beyond(patch, goal_.limit).size());
+  return answered * far <= most_far * static_cast<double>(scan_->to_answer().size());
 }
 
 void Surroundings::find_rim_normals(const SurfaceMesh& patch) {
