@@ -307,9 +307,9 @@ PreparedScanPointer without_short_creases(const Candidate& failed) {
 // ones around, with smaller triangles, or without any.
 Candidate with_fewer_creases(Candidate failed, SizingOptions sizing, const FitPlan& plan, const Progress& progress) {
   constexpr int most_trials = 3;
-  constexpr int most_larger = 1;            // times
-  constexpr double growth = 1.6;            // of the number of triangles
-  constexpr std::size_t many_failed = 100;  // places; of few, some may be gone by chance
+  const int most_larger = is_part(failed.scan->given) ? 1 : 0;  // times: a free form is itself without creases, too
+  constexpr double growth = 1.6;                                // of the number of triangles
+  constexpr std::size_t many_failed = 100;                      // places; of few, some may be gone by chance
   const double wanted = sizing.triangles;
   PreparedScanPointer scan = failed.scan;
   int larger = 0;
