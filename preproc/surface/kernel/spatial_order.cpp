@@ -53,7 +53,7 @@ std::vector<std::uint32_t> morton_order(const std::vector<Vec3>& points) {
 
 // By the smallest of their vertices, which is a counting sort and becomes the first, then by the others.
 void order_triangles(SurfaceMesh& mesh) {
-  for (Triangle& t : mesh.triangles) std::ranges::rotate(t, std::ranges::min_element(t));
+  for (Triangle& t : mesh.triangles) std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
   const auto key = [](const Triangle& t) { return t[0]; };
   std::vector<std::uint32_t> start(mesh.vertices.size() + 1, 0);
   for (const Triangle& t : mesh.triangles) ++start[key(t) + 1];
