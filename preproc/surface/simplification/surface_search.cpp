@@ -110,10 +110,6 @@ bool SurfaceSearch::Trial::has_many_bad() const {
   return static_cast<double>(shape.bad.size()) > share_of_many * static_cast<double>(candidate.faces());
 }
 
-bool SurfaceSearch::Trial::is_usable() const {
-  return shape.sharpest() >= usable_deg;
-}
-
 std::vector<ShorterEdges> SurfaceSearch::Trial::failed_places() const {
   const auto faces = static_cast<double>(candidate.faces());
   if (static_cast<double>(candidate.failed_at.size()) > few_failed_places * faces) return {};
@@ -345,6 +341,11 @@ void SurfaceSearch::bring_within(Trial& made, double share_to_yield, std::size_t
     note_deviation(within);
     if (holds(within) || refined.largest_deviation > options.limit) break;
   }
+  // What is only aimed at is not worth triangles that solvers warn of.
+  if (is_aim()) {
+    const double angle = find_shape_defects(within.candidate, usable_deg).sharpest();
+    if (angle < usable_deg && angle < find_shape_defects(made.candidate, usable_deg).sharpest()) return;
+  }
   made = std::move(within);
 }
 
@@ -392,9 +393,10 @@ bool SurfaceSearch::is_accepted(const Trial& made) const {
 bool SurfaceSearch::is_better(const Trial& made, const Trial& other) const {
   if (made.failed() != other.failed()) return other.failed();
   if (made.is_other_part != other.is_other_part) return other.is_other_part;
+  if (is_aim() && std::min(made.shape.sharpest(), other.shape.sharpest()) < usable_deg)
+    return made.shape.sharpest() > other.shape.sharpest();
   if (holds(made) != holds(other)) return holds(made);
   if (!holds(made) && made.gave_way() != other.gave_way()) return other.gave_way();
-  if (!holds(made) && made.is_usable() != other.is_usable()) return made.is_usable();
   if (!holds(made)) return made.candidate.largest_deviation < other.candidate.largest_deviation;
   if (is_shapely(made) != is_shapely(other)) return is_shapely(made);
   if (std::abs(made.shape.sharpest() - other.shape.sharpest()) > worth_it_deg)

@@ -69,7 +69,6 @@ class SurfaceSearch {
     bool failed() const { return !candidate.failure.empty(); }  // then there is no more to it than that
     bool gave_way() const { return failed() || !candidate.fallback_reason.empty(); }
     bool lost_creases(const PreparedScan& scan) const { return scan.has_creases() && candidate.feature_edges() == 0; }
-    bool is_usable() const;
     bool has_many_bad() const;
     std::vector<ShorterEdges> failed_places() const;  // of the lattice; empty where they are many
   };
@@ -82,6 +81,7 @@ class SurfaceSearch {
   DeviationBound note_deviation(Trial& made) const;
   void bring_within(Trial& made, double share_to_yield, std::size_t in_vain, const Progress& progress) const;
   void mend_shape(Trial& made, const Progress& progress) const;
+  bool is_aim() const { return wanted_.deviation && !wanted_.deviation->required; }
   bool holds(const Trial& made) const;
   bool is_shapely(const Trial& made) const;
   bool is_accepted(const Trial& made) const;
