@@ -105,10 +105,10 @@ TEST(Pipeline, ThePartsMeshIsItsOwn) {
   const SurfaceMesh cube = analytic::box({20, 20, 20}, 5);
   const std::vector<SurfaceMesh> parts = {
       analytic::box({60, 40, 8}, 4), analytic::join(cube, analytic::moved(cube, {20, 0, 0})),
-      analytic::cylinder(5, 20, 72, 10), analytic::noisy(analytic::torus(20, 6, 48, 24), 0.05, 3)};
+      analytic::cylinder(5, 20, 72, 10), analytic::noisy(analytic::torus(20, 6, 32, 16), 0.05, 3)};
   for (std::size_t part = 0; part < parts.size(); ++part) {
     const PipelineResult first = run_pipeline(parts[part]);
-    for (unsigned seed = 1; seed <= 3; ++seed) {
+    for (unsigned seed = 1; seed <= 2; ++seed) {
       const PipelineResult other = run_pipeline(analytic::elsewhere(parts[part], seed, 0.2));
       EXPECT_EQ(other.surface.triangles, first.surface.triangles) << "part " << part << ", placement " << seed;
       EXPECT_EQ(other.volume_mesh->tetrahedra, first.volume_mesh->tetrahedra) << "part " << part;

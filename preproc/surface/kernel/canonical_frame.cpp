@@ -112,8 +112,8 @@ std::vector<Vector> landmarks(const SurfaceMesh& mesh, const Moments& moments, c
   return found;
 }
 
-// A sum over the triangles' heights along a direction, odd and even. Along two that agree the part looks alike, but by
-// a chance that no part has.
+// A sum over the triangles' heights along a direction, with all powers: the first five of an icosahedron's are the same
+// along all directions. It tells most directions apart along which the part looks otherwise.
 class Asymmetry {
  public:
   Asymmetry(const SurfaceMesh& mesh, const Moments& moments) : mesh_(mesh), moments_(moments) {}
@@ -279,6 +279,7 @@ Vec3 CanonicalFrame::place_of(const Vec3& p) const {
 }
 
 void CanonicalFrame::bring_back(std::vector<Vec3>& points, const SurfaceMesh& mesh) const {
+  if (points.empty()) return;
   const double step = unit_ * step_;
   std::array<std::vector<double>, 3> own;
   tbb::parallel_for(std::size_t{0}, own.size(), [&](std::size_t axis) {

@@ -10,10 +10,10 @@ namespace scan2fea {
 // the part's own. The axes are those of the normals' second moments, which on parts with plane faces are the faces'
 // own; where two moments agree, landmarks on the largest triangles. Signs, and which of several axes alike, are settled
 // by a sum over the triangles that only the part's own symmetries leave as it is, or else by which placed mesh comes
-// first in the order of words. In this frame vertices go to
-// the nearest point of a grid of some 1e-13 of the part's size times the number of vertices (at most 1e-8), placed so
-// that no vertex is half way between two of its planes: there rounding, of the coordinates as they were given and of
-// the turn, ends.
+// first in the order of words. The unit is the part's radius. In this frame vertices go to the nearest point of a grid
+// of some 1e-13 of the part's size times the number of vertices (at most 1e-8), placed so that no vertex is half way
+// between two of its planes: there rounding, of the coordinates as they were given and of the turn, ends. From there
+// the part is turned once more, into its smallest box, whose diagonal is what the stages take its size from.
 class CanonicalFrame {
  public:
   // `placed`: the mesh in its frame, vertices along a curve through space, triangles by their corners. Two meshes that
