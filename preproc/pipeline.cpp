@@ -390,8 +390,8 @@ PipelineResult run_pipeline(SurfaceMesh scan, const PipelineOptions& options, co
     });
   FilledSurface made = MeshMaker(options.enrich ? enriched : result.scan, stairs, options, result, log).run(progress);
   if (options.simplify || options.tetrahedralize)
-    result.weak_places =
-        checked_for_solvers(made.surface, options.tetrahedralize ? &made.filled.mesh : nullptr, result.scan, options);
+    result.weak_places = checked_for_solvers(made.surface, options.tetrahedralize ? &made.filled.mesh : nullptr,
+                                             result.reference(), options);
   result.surface = std::move(made.surface);
   result.features = std::move(made.simplified.features);
   if (options.tetrahedralize) {

@@ -27,6 +27,8 @@ TEST(SmallestBox, OfARodIsItsLength) {
 }
 
 TEST(SmallestBox, WhatLiesAlongTheAxesStays) {
+  EXPECT_EQ(smallest_box_axes(analytic::box({100, 2, 2}, 2).vertices), Eigen::Matrix3d::Identity());
+  EXPECT_EQ(smallest_box_axes(analytic::box({300, 20, 2}, 1).vertices), Eigen::Matrix3d::Identity());
   EXPECT_EQ(smallest_box_axes(analytic::box({60, 40, 8}, 4).vertices), Eigen::Matrix3d::Identity());
   EXPECT_EQ(smallest_box_axes({Vec3(1, 2, 3), Vec3(1, 2, 3)}), Eigen::Matrix3d::Identity());
 }

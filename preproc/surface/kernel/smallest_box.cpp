@@ -7,14 +7,16 @@
 namespace scan2fea {
 namespace {
 
-// Of the points in each narrow cone about the middle the farthest: what sticks out is among them, or beside one.
+// Of the points in each narrow cone about the middle the farthest, in units of the box: what sticks out is among them,
+// or beside one.
 std::vector<Vec3> farthest_in_cones(const std::vector<Vec3>& points) {
   constexpr int cells = 32;  // across each face of a cube about the middle
   const BoundingBox box = bounding_box(points);
   const Vec3 middle = (box.low + box.high) / 2;
+  const Vec3 unit = (box.high - box.low).cwiseMax(std::numeric_limits<double>::min());
   std::vector<Vec3> farthest(6 * cells * cells, Vec3::Zero());
   for (const Vec3& point : points) {
-    const Vec3 p = point - middle;
+    const Vec3 p = (point - middle).cwiseQuotient(unit);
     Eigen::Index axis = 0;
     const double height = p.cwiseAbs().maxCoeff(&axis);
     if (!(height > 0)) continue;
@@ -27,6 +29,7 @@ std::vector<Vec3> farthest_in_cones(const std::vector<Vec3>& points) {
     if (p.squaredNorm() > kept.squaredNorm()) kept = p;
   }
   std::erase_if(farthest, [](const Vec3& p) { return p == Vec3::Zero(); });
+  for (Vec3& p : farthest) p = p.cwiseProduct(unit);
   return farthest;
 }
 
@@ -44,6 +47,7 @@ double diagonal_along(const Eigen::Matrix3d& axes, const std::vector<Vec3>& poin
 
 Eigen::Matrix3d smallest_box_axes(const std::vector<Vec3>& points) {
   constexpr double first_turn = 0.4, last_turn = 0.003;  // radians
+  constexpr double worth_it = 1 - 1e-4;                  // of the diagonal; what lies along the axes stays there
   const std::vector<Vec3> outer = farthest_in_cones(points);
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
   if (outer.empty()) return axes;
@@ -55,7 +59,7 @@ Eigen::Matrix3d smallest_box_axes(const std::vector<Vec3>& points) {
       for (int k = 0; k < 3; ++k) {
         const Eigen::Matrix3d turned = Eigen::AngleAxisd(angle, axes.col(k)) * axes;
         const double along = diagonal_along(turned, outer);
-        if (along < smallest) smallest = along, best = turned;
+        if (along < worth_it * smallest) smallest = along, best = turned;
       }
     if (smallest < diagonal)
       diagonal = smallest, axes = best;
