@@ -64,9 +64,7 @@ struct ChangeGroup {
 };
 
 std::string rounded(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
+  return error_text(value, 4);
 }
 
 std::string describe(RepairKind kind, const ChangeGroup& group) {

@@ -1,19 +1,16 @@
 #include "preproc/command/input_warnings.hpp"
 
 #include "preproc/mesh/coordinate_step.hpp"
+#include "preproc/mesh/error_text.hpp"
 #include "preproc/mesh/stair_steps.hpp"
 
-#include <cmath>
-#include <cstdio>
 #include <map>
 
 namespace scan2fea::command {
 namespace {
 
 std::string rounded(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
+  return error_text(value, 3);
 }
 
 void add_coarse_coordinates(const SurfaceMesh& scan, std::vector<std::string>& warnings) {

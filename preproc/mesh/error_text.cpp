@@ -4,10 +4,11 @@
 
 namespace scan2fea {
 
-std::string error_text(double value) {
+std::string error_text(double value, int significant_digits) {
   if (value == 0) value = 0;  // no sign
   char buffer[32];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 6).ptr;
+  const auto end =
+      std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, significant_digits).ptr;
   return {buffer, end};
 }
 
