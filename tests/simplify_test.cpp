@@ -190,6 +190,12 @@ TEST(Simplify, SaysWhichCreasesItCouldNotKeep) {
   EXPECT_EQ(result.feature_remark.empty(), result.feature_edges_kept > 0) << result.feature_remark;
 }
 
+TEST(Simplify, MoreTrianglesThanFitIntoTheMemoryAreRefusedAtOnce) {
+  SurfaceMesh part = analytic::box({1, 1, 1}, 1);
+  EXPECT_THROW(simplify_to(part, MeanEdgeLength{1e-6}), NotMeshable);
+  EXPECT_EQ(part.triangles.size(), 12U);
+}
+
 TEST(Simplify, NoDeviationHasNoSize) {
   SurfaceMesh part = analytic::box({1, 1, 1}, 1);
   SimplifyOptions options;
@@ -231,6 +237,33 @@ TEST(Simplify, KeepsTheCreasesOfAPartOfFewFacets) {
     for (const Vec3& v : mesh.vertices)
       nearest = std::min(nearest, (v - Vec3(std::cos(angle), std::sin(angle), 0)).norm());
     EXPECT_LT(nearest, 0.015);
+  }
+}
+
+// How far a box's vertices are from its nearest plane side.
+double off_the_sides(const SurfaceMesh& mesh, const Vec3& size) {
+  double most = 0;
+  for (const Vec3& v : mesh.vertices)
+    most = std::max(most, std::min(v.cwiseAbs().minCoeff(), (v - size).cwiseAbs().minCoeff()));
+  return most;
+}
+
+TEST(Simplify, SidesOfASlenderBarStayPlane) {
+  const Vec3 size(100, 2, 2);
+  for (const double length : {0.4, 0.5}) {
+    SurfaceMesh mesh = analytic::box(size, 200);
+    simplify_to(mesh, MeanEdgeLength{length});
+    EXPECT_LE(off_the_sides(mesh, size), 1e-9) << length;
+  }
+}
+
+TEST(Simplify, CreasesTooFineAtFirstAreKeptByTheSmallerTriangles) {
+  // Triangles that the deviation would allow are larger than the end faces.
+  for (const Vec3& size : {Vec3(100, 2, 2), Vec3(200, 2, 2), Vec3(100, 1, 3)}) {
+    SurfaceMesh mesh = analytic::box(size, 300);
+    const SimplifyResult result = simplify(mesh);
+    EXPECT_EQ(result.feature_edges_too_fine, 0U) << size[0];
+    EXPECT_LE(off_the_sides(mesh, size), 1e-3) << size[0];
   }
 }
 

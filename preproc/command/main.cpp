@@ -78,7 +78,10 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "scan2fea: %s\n", e.what());
     return e.exit_code();
   } catch (const std::bad_alloc&) {
-    std::fprintf(stderr, "scan2fea: out of memory; try: a larger --edge-length, or fewer --faces\n");
+    std::fprintf(
+        stderr,
+        "scan2fea: out of memory; try: larger triangles (--edge-length, --faces) or tetrahedra (--interior-size, "
+        "--max-volume)\n");
     return scan2fea::command::no_mesh;
   } catch (const std::exception& e) {  // of a library: no thread can be started, say
     std::fprintf(stderr, "scan2fea: no mesh could be made: %s; try: more memory, or --threads 1\n", e.what());

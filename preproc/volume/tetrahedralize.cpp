@@ -2,6 +2,7 @@
 
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/face_neighbours.hpp"
+#include "preproc/mesh/require_memory.hpp"
 #include "preproc/volume/estimate_tetrahedra.hpp"
 #include "preproc/volume/fill_regions.hpp"
 
@@ -40,6 +41,18 @@ constexpr double most_thin_walls = 0.6;
 
 // With TetGen and the optimisation, 4 to 10 us on scans.
 constexpr double processor_seconds_a_tetrahedron = 8e-6;
+
+// With TetGen's child process; 508 where it was measured, at nine million.
+void require_memory_of_tetrahedra(double count) {
+  constexpr double bytes_each = 500;
+  require_memory(count, bytes_each, "tetrahedra", "a larger --interior-size or --max-volume, or larger triangles");
+}
+
+// Of edges as long as this inside, at the least: a cell of the lattice holds 12, its edges are 0.911 of it.
+double least_tetrahedra(const SurfaceMesh& surface, const InteriorSize& size) {
+  if (size.unit != InteriorSize::Unit::model) return 0;
+  return 12 * std::abs(enclosed_volume(surface)) / std::pow(size.value / 0.911, 3);
+}
 
 // The lattice's edges in elements of a given volume: a cell of volume a^3 holds 12, and near the surface, where the
 // lattice is cut, they may be larger by half.
@@ -112,11 +125,13 @@ TetrahedralizeResult tetrahedralize(const SurfaceMesh& surface, const Tetrahedra
   if (own_points) {
     result.estimated_tetrahedra = estimate_with_tetgen(surface, options.max_volume);
   } else {
-    const std::vector<Vec3> points =
-        lattice_points(surface, inside, limited(options.interior_size, options.max_volume, surface));
+    const InteriorSize size = limited(options.interior_size, options.max_volume, surface);
+    require_memory_of_tetrahedra(least_tetrahedra(surface, size));
+    const std::vector<Vec3> points = lattice_points(surface, inside, size);
     input.points.insert(input.points.end(), points.begin(), points.end());
     result.estimated_tetrahedra = estimate_with_lattice(surface, points.size());
   }
+  require_memory_of_tetrahedra(static_cast<double>(result.estimated_tetrahedra));
   progress.announce("about " + std::to_string(result.estimated_tetrahedra) + " tetrahedra",
                     processor_seconds_a_tetrahedron * static_cast<double>(result.estimated_tetrahedra));
 

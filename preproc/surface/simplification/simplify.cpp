@@ -1,6 +1,7 @@
 #include "preproc/surface/simplification/simplify.hpp"
 
 #include "preproc/mesh/error.hpp"
+#include "preproc/mesh/require_memory.hpp"
 #include "preproc/surface/features/feature_selection.hpp"
 #include "preproc/surface/features/match_features.hpp"
 #include "preproc/surface/features/scan_noise.hpp"
@@ -74,6 +75,9 @@ double typical_edge(const TargetSize& size, const SurfaceMesh& scan, double area
   }
   return equilateral_edge(area, wanted_faces(size, scan, area));
 }
+
+// Measured on scans of millions of triangles.
+constexpr double bytes_a_triangle = 200;
 
 // Those of the scan that were found or given.
 Features features_of(const SurfaceMesh& mesh, const SimplifyOptions& options) {
@@ -152,6 +156,7 @@ SimplifyResult Simplification::State::result(Candidate candidate, SurfaceMesh& s
   result.largest_deviation = candidate.largest_deviation;
   result.feature_edges_kept = candidate.feature_edges();
   result.feature_remark = feature_remark(wanted_creases, candidate.scan->creases().size());
+  result.feature_edges_too_fine = search->too_fine_creases();
   result.size_remark = search->size_remark();
   const double made = static_cast<double>(candidate.faces());
   if (wanted_triangles > 0 && made > 1.01 * search->wanted_triangles() + 1)
@@ -170,6 +175,8 @@ Simplification::Simplification(const SurfaceMesh& scan, const SimplifyOptions& o
   const TargetSize size = in_model_units(options.size, bounding_box(scan.vertices));
   const double area = surface_area(scan);
   const double edge = typical_edge(size, scan, area);
+  require_memory(area / (equilateral_area * edge * edge), bytes_a_triangle, "triangles",
+                 "a larger --edge-length or --deviation, or fewer --faces");
   Features features = features_of(scan, options);
   state.of_scan.faces_before = scan.triangles.size();
   state.of_scan.feature_edges = features.edges.size();
@@ -177,9 +184,15 @@ Simplification::Simplification(const SurfaceMesh& scan, const SimplifyOptions& o
   state.of_scan.unsupported_creases = std::move(features.dropped);
   state.of_scan.features = lines_of(scan, features.edges);
 
-  const std::size_t supported = features.edges.size();
-  if (!options.given_features) features.edges = select_features(scan, std::move(features.edges), edge);
-  state.of_scan.feature_edges_too_fine = supported - features.edges.size();
+  std::vector<FeatureEdge> too_fine;
+  if (!options.given_features) {
+    std::vector<FeatureEdge> all = std::move(features.edges);
+    std::sort(all.begin(), all.end());
+    features.edges = select_features(scan, all, edge);
+    std::set_difference(all.begin(), all.end(), features.edges.begin(), features.edges.end(),
+                        std::back_inserter(too_fine));
+  }
+  FineCreases fine_creases(features.edges, std::move(too_fine));
   const CurveTolerance tolerance = tolerance_of_curves(scan, size, features.noise);
   state.parted = with_smaller_faces(scan, options, area, edge, features.edges);
   state.wanted_creases = features.edges.size();
@@ -194,7 +207,7 @@ Simplification::Simplification(const SurfaceMesh& scan, const SimplifyOptions& o
   }
   if (!options.limits.empty())
     wanted.longest = longest_edges(prepared->mesh, options.limits, longest_edge_of_part * edge);
-  state.search.emplace(prepared, std::move(wanted), state.options);
+  state.search.emplace(prepared, std::move(fine_creases), std::move(wanted), state.options);
 }
 
 Simplification::~Simplification() = default;

@@ -39,6 +39,9 @@ constexpr double least_angle_deg = 38.5;
 // Of the diagonal, the dial between shape and fit at the least on parts with edges: most of them have plane faces and
 // cylinders, which triangles can follow.
 constexpr double fidelity_of_parts = 0.0003;
+// And over the edges, since a slender part has a long diagonal: from 0.05 on single vertices rise from its planes by
+// half an edge.
+constexpr double fidelity_over_edge = 0.03;
 
 // Of the fit, in which it finds out how near the triangles can come.
 constexpr int first_rounds = 2;
@@ -157,8 +160,9 @@ Candidate by_lattice(const PreparedScanPointer& prepared, const SizingOptions& s
   fit.fidelity_of_diagonal = plan.fidelity_of_diagonal;
   fit.fidelity_of_residual = plan.fidelity_of_residual;
   if (scan.has_creases()) {
-    fit.fidelity_of_diagonal = fidelity_of_parts;
-    fit.lift_tail_of_diagonal = *fit.lift_tail_of_diagonal * fidelity_of_parts / plan.fidelity_of_diagonal;
+    const double edge = scan.reference().mean_edge(candidate.faces());
+    fit.fidelity_of_diagonal = std::min(fidelity_of_parts, fidelity_over_edge * edge / scan.reference().diagonal);
+    *fit.lift_tail_of_diagonal *= fit.fidelity_of_diagonal / plan.fidelity_of_diagonal;
     fit.rounds_of_dialling = plan.rounds;
     fit.rounds = first_rounds + plan.rounds / 2;  // planes and cylinders are met soon
   }

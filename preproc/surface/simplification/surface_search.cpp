@@ -119,8 +119,14 @@ std::vector<ShorterEdges> SurfaceSearch::Trial::failed_places() const {
   return places;
 }
 
-SurfaceSearch::SurfaceSearch(PreparedScanPointer scan, WantedSurface wanted, const SimplifyOptions& options)
-    : first_scan_(scan), scan_(std::move(scan)), wanted_(std::move(wanted)), options_(options) {
+SurfaceSearch::SurfaceSearch(PreparedScanPointer scan, FineCreases fine_creases, WantedSurface wanted,
+                             const SimplifyOptions& options)
+    : first_scan_(scan),
+      scan_(std::move(scan)),
+      fine_creases_(std::move(fine_creases)),
+      wanted_(std::move(wanted)),
+      options_(options),
+      is_part_(is_part(scan_->given)) {
   sizing_.triangles = wanted_.triangles;
   sizing_.sizing = options.sizing;
   sizing_.gradation = options.gradation;
@@ -147,8 +153,10 @@ Candidate SurfaceSearch::run(const Progress& progress) {
       if (!length_.empty()) sizing_.factors = length_;
       break;
     }
+    if (is_part_ && wanted_.deviation && &scan_->mesh == &first_scan_->mesh)
+      scan_ = fine_creases_.with_those_kept_by(length_, scan_);
     try {
-      const bool by_shape = latest.failed() && wanted_.deviation && !was_by_shape && is_part(scan_->given);
+      const bool by_shape = latest.failed() && wanted_.deviation && !was_by_shape && is_part_;
       was_by_shape |= by_shape;
       const Progress in_time = best.failed() ? progress : progress.for_improvement();
       latest = by_shape ? make_by_shape(in_time) : make(best.gave_way() && !best.failed(), in_time);

@@ -7,6 +7,7 @@
 // without a gain, and of work, which is counted in triangles made, so that the result does not depend on the machine.
 #pragma once
 
+#include "preproc/surface/simplification/fine_creases.hpp"
 #include "preproc/surface/simplification/shape_check.hpp"
 #include "preproc/surface/simplification/surface_candidate.hpp"
 #include "preproc/surface/sizing/shorter_edges.hpp"
@@ -32,7 +33,8 @@ class SurfaceSearch {
   // known there.
   static constexpr double most_of_scan = 32;
 
-  SurfaceSearch(PreparedScanPointer scan, WantedSurface wanted, const SimplifyOptions& options);
+  SurfaceSearch(PreparedScanPointer scan, FineCreases fine_creases, WantedSurface wanted,
+                const SimplifyOptions& options);
   SurfaceSearch(const SurfaceSearch&) = delete;
 
   // The best surface that the budget allows. Throws what make_surface throws where not even the first could be made,
@@ -54,6 +56,8 @@ class SurfaceSearch {
   // Where more triangles were asked for than wanted; empty where not.
   const std::string& size_remark() const { return size_remark_; }
   double wanted_triangles() const { return wanted_.triangles; }
+  // Of the scan as it was given, that triangles of no size asked for could keep.
+  std::size_t too_fine_creases() const { return fine_creases_.left_out(); }
 
  private:
   // A surface, and what the judges say of it.
@@ -94,8 +98,10 @@ class SurfaceSearch {
 
   PreparedScanPointer first_scan_;
   PreparedScanPointer scan_;  // with the creases to ask for
+  FineCreases fine_creases_;
   WantedSurface wanted_;
   const SimplifyOptions& options_;
+  bool is_part_;  // the creases of free forms are specks and folds: smaller triangles are no reason to keep them
   SizingOptions sizing_;
   std::vector<double> error_factors_;
   std::vector<double> length_;  // per vertex of the scan, as asked for last; empty before something was lowered
