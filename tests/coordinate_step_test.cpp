@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <vector>
 
 namespace scan2fea {
 namespace {
@@ -31,29 +32,59 @@ SurfaceMesh in_floats(SurfaceMesh mesh) {
   return mesh;
 }
 
-TEST(CoordinateStep, OfFloatsIsThatOfTheFarthestCoordinate) {
-  const auto step = coordinate_step({{-6329171.5, 2.3F, 3.7F}, {-far_away, 4.123457F, 5.765433F}}, 1e-9);
+// A dozen values beside one another on each axis.
+std::vector<Vec3> dozen(const Vec3& first, const Vec3& step) {
+  std::vector<Vec3> points;
+  for (int i = 0; i < 12; ++i) points.push_back(first + i * step);
+  return points;
+}
+
+// As the shortest text that is read so has it: sums of tenths have all digits otherwise.
+std::vector<Vec3> rounded(std::vector<Vec3> points, double step) {
+  for (Vec3& p : points)
+    for (double& x : p) x = std::round(x / step) / std::round(1 / step);
+  return points;
+}
+
+TEST(CoordinateStep, OfFloatsIsThatOfTheFarthestCoordinates) {
+  const auto step = coordinate_step(dozen({-far_away, 2.25, 0}, {0.5, 1.0 / 1024, 1.0 / 65536}), 1e-9);
   ASSERT_TRUE(step);
   EXPECT_FALSE(step->digits);
   EXPECT_DOUBLE_EQ(step->length.x(), 0.5);
   EXPECT_LE(step->length.z(), 1e-6);
-  EXPECT_DOUBLE_EQ(coordinate_step({{16777216, 0, 0}, {16777318, 0, 0}}, 1e-9)->length.x(), 2);
+  EXPECT_DOUBLE_EQ(coordinate_step(dozen({16777216, 0, 0}, {2, 0, 0}), 1e-9)->length.x(), 2);
 }
 
 TEST(CoordinateStep, OfDecimalsIsThatOfTheLastDigit) {
-  const auto step = coordinate_step({{12.3, 0.0456, 0}, {-98.7, 0.1, 200}}, 1e-9);
+  const auto step = coordinate_step(rounded(dozen({12.3, 0.456, 1}, {1.1, 0.013, 0}), 0.001), 1e-9);
   ASSERT_TRUE(step);
   EXPECT_EQ(step->digits, 3);
   EXPECT_NEAR(step->length.x(), 0.1, 1e-12);
   EXPECT_NEAR(step->length.y(), 0.001, 1e-12);
-  EXPECT_EQ(step->length.z(), 0) << "two steps of 100 across";
+  EXPECT_EQ(step->length.z(), 0) << "one value";
+}
+
+TEST(CoordinateStep, OfDecimalsIsNotThatOfAFewLargerOnes) {
+  // "10.0" among 8.5 and the like has two digits, as they have, and the same step.
+  std::vector<Vec3> points = rounded(dozen({8.5, 0, 0}, {0.1, 0, 0}), 0.1);
+  points.push_back({10, 0, 0});
+  EXPECT_NEAR(coordinate_step(points, 1e-9)->length.x(), 0.1, 1e-12);
 }
 
 TEST(CoordinateStep, OfDecimalsInFloatsIsTheSame) {
-  const auto step = coordinate_step({{12.3F, 45.6F, 78.9F}, {1.23F, 4.56F, 7.89F}}, 1e-9);
+  std::vector<Vec3> points = rounded(dozen({12.3, 45.6, 78.9}, {0.1, 0.1, 0.1}), 0.1);
+  for (Vec3& p : points) p = p.cast<float>().cast<double>();
+  const auto step = coordinate_step(points, 1e-9);
   ASSERT_TRUE(step);
   EXPECT_EQ(step->digits, 3);
   EXPECT_NEAR(step->length.x(), 0.1, 1e-12);
+}
+
+TEST(CoordinateStep, OfTwoHeightsIsNone) {
+  // A cone's apex and rim at whole numbers say nothing of the digits.
+  std::vector<Vec3> points;
+  for (int i = 0; i < 48; ++i) points.push_back({10 * std::cos(i / 7.0), 10 * std::sin(i / 7.0), i < 47 ? 0.0 : 15.0});
+  EXPECT_FALSE(coordinate_step(points, 1e-6));
 }
 
 TEST(CoordinateStep, OfNumbersWithAllDigitsIsNone) {

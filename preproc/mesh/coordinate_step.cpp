@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace scan2fea {
@@ -41,15 +42,20 @@ struct AxisStep {
   int digits = 0;  // 0: of 32-bit floats
 };
 
+// The tenth largest of the distinct magnitudes: fewer values may be meant, as on a box in whole numbers, and the
+// largest alone may be in a decade that no other one reaches. 0 where there are fewer.
+double tenth_farthest(const std::vector<Vec3>& points, Eigen::Index axis) {
+  constexpr std::size_t fewest = 10;
+  std::vector<double> values;
+  for (const Vec3& p : points) values.push_back(std::abs(p[axis]));
+  std::ranges::sort(values, std::greater{});
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return values.size() < fewest ? 0 : values[fewest - 1];
+}
+
 AxisStep axis_step(const std::vector<Vec3>& points, Eigen::Index axis, bool floats, double least) {
-  constexpr double fewest_steps = 10;  // across the scan: fewer values may be meant, as on a box in whole numbers
-  double low = 0, high = 0;
-  if (!points.empty()) low = high = points[0][axis];
-  for (const Vec3& p : points) {
-    low = std::min(low, p[axis]);
-    high = std::max(high, p[axis]);
-  }
-  const double farthest = std::max(-low, high), coarsest = (high - low) / fewest_steps;
+  double farthest = 0;
+  for (const Vec3& p : points) farthest = std::max(farthest, std::abs(p[axis]));
   if (farthest == 0) return {};
   AxisStep step{.length = floats ? float_step(farthest) : 0};
   int digits = 0;
@@ -57,10 +63,12 @@ AxisStep axis_step(const std::vector<Vec3>& points, Eigen::Index axis, bool floa
     const double x = std::abs(p[axis]);
     if (x == 0) continue;
     digits = std::max(digits, floats ? significant_digits(static_cast<float>(x)) : significant_digits(x));
-    if (decimal_step(farthest, digits) <= least) return step;  // more digits make it finer still
+    if (step.length <= least && decimal_step(farthest, digits) <= least) return {};  // more digits make it finer still
   }
+  farthest = tenth_farthest(points, axis);
+  if (farthest == 0) return {};
   if (const double length = decimal_step(farthest, digits); length > step.length) step = {length, digits};
-  return step.length <= coarsest ? step : AxisStep{};
+  return step;
 }
 
 // What is between faces at an edge.

@@ -7,7 +7,7 @@
 
 namespace scan2fea {
 
-// The step between neighbouring values along each axis, at the coordinate farthest from 0; 0 where it is too fine to
+// The step between neighbouring values along each axis, at the coordinates farthest from 0; 0 where it is too fine to
 // matter.
 struct CoordinateStep {
   Vec3 length = Vec3::Zero();
@@ -16,8 +16,8 @@ struct CoordinateStep {
 
 // Coordinates that are all 32-bit floats, as in any binary STL, have the steps of these: at 6 million half a unit.
 // Otherwise, or where these are finer, they have those of the decimal digits with which text was written: 12.3, 0.456
-// and 12 have three, and so a step of 0.1 at 12.3. Nothing where no step is above `least`; nor is one where the scan is
-// fewer than ten steps across. O(n).
+// and 12 have three, and so a step of 0.1 at 12.3. Nothing where no step is above `least`, and none along an axis with
+// fewer than ten values. O(n log n).
 std::optional<CoordinateStep> coordinate_step(const std::vector<Vec3>& points, double least);
 
 // The steps, where the surface shows them instead of the part: where at most of the edges that are neither flat nor
