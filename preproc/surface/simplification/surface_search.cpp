@@ -30,27 +30,18 @@ constexpr double most_growth = 3, few_triangles = 8000, most_growth_of_small = 4
 
 // Tries without a gain, one after the other, after which it is given up. Another lattice may turn out better by chance,
 // which is worth waiting for only where it costs little.
-constexpr std::size_t many_triangles = 5000, very_many_triangles = 20000, most_for_shape = 50000;
+constexpr std::size_t many_triangles = 5000, very_many_triangles = 20000;
 int patience(std::size_t triangles) {
   return triangles < many_triangles ? 3 : triangles < very_many_triangles ? 1 : 0;
 }
-
-// Two lattices of nearly the same sizes differ by about this; a smaller gain is chance.
-constexpr double worth_it_deg = 0.5, worth_it_of_deviation = 0.9;
 
 // Angles that are aimed at. Where time matters, the optimisation of the tetrahedra copes with smaller ones.
 constexpr double good_of_few_deg = 30, good_of_many_deg = 17;
 // Places below are mended where they are.
 constexpr double mended_deg = 30;
-// Solvers warn of smaller angles: then a surface farther from the scan is better.
-constexpr double usable_deg = 5;
 
-// With more bad triangles than this the size as a whole is wrong, not places.
-constexpr double share_of_many = 0.1;
 // With more places, over the triangles, another surface costs less than the mending of each.
 constexpr double few_bad_places = 0.03;
-// The same of places at which a lattice failed: they need more than a patch has.
-constexpr double few_failed_places = 0.01;
 
 // Wanted with fewer triangles than this, a part without its edges stands for nothing any more: edges go before angles.
 constexpr double few_triangles_of_part = 1000;
@@ -64,10 +55,6 @@ constexpr double most_stuck = 0.01;
 // How many places more may be tried in vain than come nearer, before another surface is made and on the last one: each
 // costs as much as a surface of several hundred triangles.
 constexpr std::size_t few_in_vain = 12, most_in_vain = 40;
-
-// Where triangles as large as the deviation allows are too large for the part's edges, smaller ones keep their shape.
-// The bound is where isotropic remeshing with kept edges ends (CGAL: 1.18 to 1.21 on plates, cubes and cylinders).
-constexpr double worst_mean_edge_ratio = 1.18;
 
 // Of a deviation, what is left to the shift that restores the volume.
 constexpr double for_volume = 0.005;
@@ -106,19 +93,6 @@ std::string count(double triangles) {
 
 }  // namespace
 
-bool SurfaceSearch::Trial::has_many_bad() const {
-  return static_cast<double>(shape.bad.size()) > share_of_many * static_cast<double>(candidate.faces());
-}
-
-std::vector<ShorterEdges> SurfaceSearch::Trial::failed_places() const {
-  const auto faces = static_cast<double>(candidate.faces());
-  if (static_cast<double>(candidate.failed_at.size()) > few_failed_places * faces) return {};
-  const double edge = equilateral_edge(surface_area(candidate.mesh), faces);
-  std::vector<ShorterEdges> places;
-  for (const Vec3& p : candidate.failed_at) places.push_back(shorter_edges(p, edge, least_shortening, 1));
-  return places;
-}
-
 SurfaceSearch::SurfaceSearch(PreparedScanPointer scan, FineCreases fine_creases, WantedSurface wanted,
                              const SimplifyOptions& options)
     : first_scan_(scan),
@@ -142,7 +116,7 @@ Candidate SurfaceSearch::run(const Progress& progress) {
   bool was_by_shape = false;
   int in_vain = 0;
   const auto is_missing = [&] { return wanted_.deviation && wanted_.deviation->required && !holds(best); };
-  while (!is_accepted(latest) && (is_missing() || in_vain <= patience(latest.candidate.faces())) &&
+  while (!order().is_accepted(latest) && (is_missing() || in_vain <= patience(latest.candidate.faces())) &&
          progress.may_improve()) {
     std::vector<double> length = length_;
     const SizingOptions sizing = sizing_;
@@ -163,8 +137,8 @@ Candidate SurfaceSearch::run(const Progress& progress) {
     } catch (const NotMeshable&) {
       break;
     }
-    in_vain = gains(latest, best) ? 0 : in_vain + 1;
-    if (is_better(latest, best)) best = latest;
+    in_vain = order().gains(latest, best) ? 0 : in_vain + 1;
+    if (order().is_better(latest, best)) best = latest;
   }
   if (best.failed()) best = make(true, progress);
   if (!holds(best))
@@ -300,7 +274,7 @@ SurfaceSearch::Trial SurfaceSearch::judged(Candidate candidate, const Progress& 
 void SurfaceSearch::judge_deviation(Trial& made, const Progress& progress) {
   made.share_beyond = share_beyond(note_deviation(made).to_reference, wanted_.deviation->distance);
   made.mean_edge_ratio = measure_triangles(made.candidate.mesh).edge_ratio.mean;
-  if (holds(made) || made.gave_way() || !is_shapely(made) || made.share_beyond > most_to_mend_) return;
+  if (holds(made) || made.gave_way() || !order().is_shapely(made) || made.share_beyond > most_to_mend_) return;
   progress.improve([&](const Progress& in_time) { bring_within(made, most_stuck, few_in_vain, in_time); });
   if (!holds(made) && !wanted_.deviation->required)
     most_to_mend_ = made.share_beyond / 2;  // more of the kind cannot either
@@ -350,7 +324,7 @@ void SurfaceSearch::bring_within(Trial& made, double share_to_yield, std::size_t
     if (holds(within) || refined.largest_deviation > options.limit) break;
   }
   // What is only aimed at is not worth triangles that solvers warn of.
-  if (is_aim()) {
+  if (order().is_aim()) {
     const double angle = find_shape_defects(within.candidate, usable_deg).sharpest();
     if (angle < usable_deg && angle < find_shape_defects(made.candidate, usable_deg).sharpest()) return;
   }
@@ -383,45 +357,6 @@ void SurfaceSearch::mend_shape(Trial& made, const Progress& progress) const {
   made = std::move(mended);
 }
 
-bool SurfaceSearch::holds(const Trial& made) const {
-  return !made.failed() && (!wanted_.deviation || made.candidate.largest_deviation <= wanted_.deviation->distance);
-}
-
-bool SurfaceSearch::is_shapely(const Trial& made) const {
-  return !wanted_.deviation || made.mean_edge_ratio <= worst_mean_edge_ratio || sizing_.triangles >= most_triangles();
-}
-
-bool SurfaceSearch::is_accepted(const Trial& made) const {
-  if (!holds(made) || !is_shapely(made) || made.is_other_part) return false;
-  // Of very many another lattice costs far more than the few places that it may mend are worth.
-  return made.shape.empty() || (!made.gave_way() && !made.has_many_bad() && made.candidate.faces() >= most_for_shape);
-}
-
-// Corners of the part stay about as they are; what else is bad decides then.
-bool SurfaceSearch::is_better(const Trial& made, const Trial& other) const {
-  if (made.failed() != other.failed()) return other.failed();
-  if (made.is_other_part != other.is_other_part) return other.is_other_part;
-  if (is_aim() && std::min(made.shape.sharpest(), other.shape.sharpest()) < usable_deg)
-    return made.shape.sharpest() > other.shape.sharpest();
-  if (holds(made) != holds(other)) return holds(made);
-  if (!holds(made) && made.gave_way() != other.gave_way()) return other.gave_way();
-  if (!holds(made)) return made.candidate.largest_deviation < other.candidate.largest_deviation;
-  if (is_shapely(made) != is_shapely(other)) return is_shapely(made);
-  if (std::abs(made.shape.sharpest() - other.shape.sharpest()) > worth_it_deg)
-    return made.shape.sharpest() > other.shape.sharpest();
-  return made.shape.least_angle_deg > other.shape.least_angle_deg;
-}
-
-bool SurfaceSearch::gains(const Trial& made, const Trial& best) const {
-  if (made.failed() || best.failed()) return best.failed() && !made.failed();
-  if (made.is_other_part != best.is_other_part) return best.is_other_part;
-  if (holds(made) != holds(best)) return holds(made);
-  if (!holds(made) && made.gave_way() != best.gave_way()) return best.gave_way();
-  if (!holds(made)) return made.candidate.largest_deviation < worth_it_of_deviation * best.candidate.largest_deviation;
-  if (!is_shapely(best)) return made.mean_edge_ratio < best.mean_edge_ratio;
-  return made.shape.sharpest() > best.shape.sharpest() + worth_it_deg;
-}
-
 // The creases to ask for after this surface: none where they would ask for smaller triangles everywhere though few are
 // bad without them, and no corners too narrow for a triangle.
 void SurfaceSearch::keep_creases_after(const Trial& latest) {
@@ -447,8 +382,8 @@ void SurfaceSearch::lower_lengths(const Trial& latest) {
     if (!holds(latest))
       shorten_by_deviation(latest.deviation, wanted_.deviation->distance, latest.was_mended ? least_shortening : 1,
                            length_);
-    if (!is_shapely(latest)) everywhere = shortening_for_shape(latest.mean_edge_ratio);
-    if (holds(latest) && is_shapely(latest)) shorten_around(latest.shape.bad, scan_->mesh, length_);
+    if (!order().is_shapely(latest)) everywhere = shortening_for_shape(latest.mean_edge_ratio);
+    if (holds(latest) && order().is_shapely(latest)) shorten_around(latest.shape.bad, scan_->mesh, length_);
   }
   for (double& l : length_) l *= everywhere;
 }

@@ -8,9 +8,7 @@
 #pragma once
 
 #include "preproc/surface/simplification/fine_creases.hpp"
-#include "preproc/surface/simplification/shape_check.hpp"
-#include "preproc/surface/simplification/surface_candidate.hpp"
-#include "preproc/surface/sizing/shorter_edges.hpp"
+#include "preproc/surface/simplification/surface_trial.hpp"
 #include "quality/deviation_bound.hpp"
 
 #include <optional>
@@ -60,22 +58,7 @@ class SurfaceSearch {
   std::size_t too_fine_creases() const { return fine_creases_.left_out(); }
 
  private:
-  // A surface, and what the judges say of it.
-  struct Trial {
-    Candidate candidate = {};
-    ShapeDefects shape = {};
-    double mean_edge_ratio = 1;
-    double share_beyond = 0;             // of the faces, farther from the scan than wanted, before places were mended
-    std::vector<double> deviation = {};  // around each vertex of the scan, where it is beyond what was asked for
-    bool was_mended = false;             // place by place
-    bool is_other_part = false;          // a small part without its edges is another part
-
-    bool failed() const { return !candidate.failure.empty(); }  // then there is no more to it than that
-    bool gave_way() const { return failed() || !candidate.fallback_reason.empty(); }
-    bool lost_creases(const PreparedScan& scan) const { return scan.has_creases() && candidate.feature_edges() == 0; }
-    bool has_many_bad() const;
-    std::vector<ShorterEdges> failed_places() const;  // of the lattice; empty where they are many
-  };
+  using Trial = SurfaceTrial;
 
   void set_first_sizing(const Progress& progress);
   Trial make(bool may_contract, const Progress& progress);
@@ -85,16 +68,12 @@ class SurfaceSearch {
   DeviationBound note_deviation(Trial& made) const;
   void bring_within(Trial& made, double share_to_yield, std::size_t in_vain, const Progress& progress) const;
   void mend_shape(Trial& made, const Progress& progress) const;
-  bool is_aim() const { return wanted_.deviation && !wanted_.deviation->required; }
-  bool holds(const Trial& made) const;
-  bool is_shapely(const Trial& made) const;
-  bool is_accepted(const Trial& made) const;
-  bool is_better(const Trial& made, const Trial& other) const;
-  bool gains(const Trial& made, const Trial& best) const;
   void lower_lengths(const Trial& latest);
   void keep_creases_after(const Trial& latest);
   bool ask_for_lower_lengths(double most_triangles);
   double most_triangles() const;
+  TrialOrder order() const { return {wanted_.deviation, sizing_.triangles >= most_triangles()}; }
+  bool holds(const Trial& made) const { return order().holds(made); }
 
   PreparedScanPointer first_scan_;
   PreparedScanPointer scan_;  // with the creases to ask for
