@@ -378,6 +378,8 @@ PipelineResult run_pipeline(SurfaceMesh scan, const PipelineOptions& options, co
       if (!result.repaired.unchanged()) result.given = std::move(given);
       if (*options.repair == RepairOptions{}) result.solid_volume = volume_of_solid(scan, result.repaired);
       describe(result.repaired, record);
+      if (options.repair->thickness && result.repaired.count(RepairKind::ThickenedSheet) == 0)
+        record.remarks.emplace_back("nothing was thickened: no sheet is open");
     });
   result.scan = std::move(scan);
   SurfaceMesh enriched;  // scans are large: none is copied that the next stage reads only

@@ -165,5 +165,15 @@ TEST(Pipeline, WithoutTimeForAMeshThereIsNone) {
   EXPECT_THROW(run_pipeline(analytic::sphere(1, 3), {}, Progress().until(end)), OutOfTime);
 }
 
+TEST(Pipeline, SaysThatNothingIsOpenToBeThickened) {
+  PipelineOptions options;
+  options.simplify.reset();
+  options.tetrahedralize.reset();
+  options.repair = RepairOptions{.thickness = Thickness{0.1, ThickenTo::both}};
+  const PipelineResult result = run_pipeline(analytic::box({1, 1, 1}, 0.5), options);
+  ASSERT_EQ(result.stages.size(), 1U);
+  EXPECT_EQ(result.stages[0].remarks, std::vector<std::string>{"nothing was thickened: no sheet is open"});
+}
+
 }  // namespace
 }  // namespace scan2fea

@@ -96,6 +96,18 @@ TEST(SizeLimits, RefuseWhatMeansNothing) {
   EXPECT_THROW(longest_edges(sphere, {.boxes = {}, .balls = {}, .elements_across = 0}, 1), WrongUsage);
 }
 
+TEST(SizeLimits, RefuseAPlaceThatHoldsNoSurface) {
+  std::vector<FeatureEdge> none;
+  const auto refine = [&](SizeLimits limits) {
+    SurfaceMesh sphere = analytic::sphere(1, 1);
+    refine_within_limits(sphere, none, limits);
+  };
+  const BoundingBox inside{.low = {-0.1, -0.1, -0.1}, .high = {0.1, 0.1, 0.1}};
+  EXPECT_THROW(refine({.boxes = {{inside, 0.1}}, .balls = {}, .elements_across = {}}), WrongUsage);
+  EXPECT_THROW(refine({.boxes = {}, .balls = {{{Vec3(9, 0, 0), 1}, 0.1}}, .elements_across = {}}), WrongUsage);
+  EXPECT_NO_THROW(refine({.boxes = {}, .balls = {{{Vec3(1, 0, 0), 0.1}, 0.1}}, .elements_across = {}}));
+}
+
 double mean_edge(const SurfaceMesh& mesh, const auto& counts) {
   double sum = 0, edges = 0;
   for (const Triangle& t : mesh.triangles)

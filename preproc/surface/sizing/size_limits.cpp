@@ -1,6 +1,7 @@
 #include "preproc/surface/sizing/size_limits.hpp"
 
 #include "preproc/mesh/error.hpp"
+#include "preproc/mesh/error_text.hpp"
 #include "preproc/surface/kernel/adjacency.hpp"
 #include "preproc/surface/kernel/parallel_blocks.hpp"
 #include "preproc/surface/sizing/sizing_field.hpp"
@@ -42,17 +43,40 @@ void check(const SizeLimits& limits) {
             *limits.elements_across, "1 to 10");
 }
 
+BoundingBox box_of(const SurfaceMesh& mesh, const Triangle& t) {
+  const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+  return {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
+}
+
+bool meet(const BoundingBox& a, const BoundingBox& b) {
+  return (a.low - b.high).maxCoeff() <= 0 && (b.low - a.high).maxCoeff() <= 0;
+}
+
+bool meet(const BoundingBox& box, const Ball& ball) {
+  return (ball.centre - ball.centre.cwiseMax(box.low).cwiseMin(box.high)).norm() <= ball.radius;
+}
+
 // By bounding boxes, so that a triangle too many may be limited, but none too few.
 double limit_of(const SurfaceMesh& mesh, const Triangle& t, const SizeLimits& limits) {
-  const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
-  const Vec3 low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
+  const BoundingBox bounds = box_of(mesh, t);
   double limit = infinity;
-  for (const SizedBox& box : limits.boxes)
-    if ((low - box.box.high).maxCoeff() <= 0 && (box.box.low - high).maxCoeff() <= 0)
-      limit = std::min(limit, box.length);
+  for (const auto& [box, length] : limits.boxes)
+    if (meet(bounds, box)) limit = std::min(limit, length);
   for (const auto& [ball, length] : limits.balls)
-    if ((ball.centre - ball.centre.cwiseMax(low).cwiseMin(high)).norm() <= ball.radius) limit = std::min(limit, length);
+    if (meet(bounds, ball)) limit = std::min(limit, length);
   return limit;
+}
+
+// A place in other units, say, would be ignored without a word.
+template <class Place>
+void require_surface_in(const SurfaceMesh& scan, const Place& place, const char* name, const Vec3& centre) {
+  if (std::ranges::any_of(scan.triangles, [&](const Triangle& t) { return meet(box_of(scan, t), place); })) return;
+  const BoundingBox whole = bounding_box(scan.vertices);
+  throw WrongUsage({.what = std::string("no part of the surface is in a size ") + name,
+                    .where = error_text(centre),
+                    .value = {},
+                    .limit = "the scan is from " + error_text(whole.low) + " to " + error_text(whole.high),
+                    .advice = "coordinates of the scan's own unit"});
 }
 
 void lower(std::vector<double>& limit, const Triangle& t, double to) {
@@ -79,6 +103,8 @@ void limit_across(const SurfaceMesh& scan, int elements, double longest_edge, st
 void refine_within_limits(SurfaceMesh& scan, std::vector<FeatureEdge>& features, const SizeLimits& limits) {
   constexpr int most_passes = 24;
   check(limits);
+  for (const auto& [box, length] : limits.boxes) require_surface_in(scan, box, "box", (box.low + box.high) / 2);
+  for (const auto& [ball, length] : limits.balls) require_surface_in(scan, ball, "ball", ball.centre);
   for (int pass = 0; pass < most_passes; ++pass) {
     std::vector<double> length(scan.vertices.size(), infinity);
     for (const Triangle& t : scan.triangles) {

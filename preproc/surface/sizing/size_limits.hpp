@@ -31,7 +31,8 @@ struct SizeLimits {
 };
 
 // Halves edges in and around boxes and balls until they are as short there as the result's, so that large triangles
-// have vertices that the limits can hold for. `features` are halved with their edges.
+// have vertices that the limits can hold for. `features` are halved with their edges. Throws WrongUsage for limits out
+// of range, and for a box or a ball that holds no part of the surface.
 void refine_within_limits(SurfaceMesh& scan, std::vector<FeatureEdge>& features, const SizeLimits& limits);
 
 // Per vertex the longest edges that are allowed; infinity where there is no limit. The thickness of a wall
