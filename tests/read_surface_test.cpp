@@ -323,6 +323,14 @@ TEST_F(ReadPly, PolygonsAreCut) {
   EXPECT_EQ(mesh.triangles.size(), 3u);
 }
 
+TEST_F(ReadPly, FacesWithoutPropertiesAreNone) {
+  // However many the header promises: four thousand million need no bytes.
+  const std::string header =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty double x\nproperty double y\n"
+      "property double z\nelement face 4294967295\nend_header\n";
+  EXPECT_THAT(error_of("part.ply", header + std::string(24, '\0')), HasSubstr("no faces"));
+}
+
 TEST_F(ReadPly, PromisesBeyondTheFileAreErrors) {
   const std::string text(ply_tetrahedron);
   EXPECT_THAT(error_of("part.ply", replaced(text, "vertex 4", "vertex 4000000000")),

@@ -214,6 +214,7 @@ class BodyReader {
   }
 
   void read_faces(const PlyElement& element) {
+    if (element.properties.empty()) return;  // as many as the header likes
     const bool strips = element.name == "tristrips";
     if (!strips) {
       constexpr std::uint64_t shortest_row = 4;  // a length and three corners
