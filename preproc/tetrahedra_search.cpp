@@ -72,6 +72,9 @@ RenewalResult renew_where_poor(Simplification& search, const SimplifyOptions& si
                                const TetrahedralizeOptions& tetrahedralization, FilledSurface made,
                                const Progress& progress) {
   RenewalResult result;
+  TetrahedralizeOptions limited = tetrahedralization;
+  if (simplification.effort != Effort::high)
+    limited.most_tetrahedra = std::max(most_elements, made.filled.mesh.tetrahedra.size());
   result.min_dihedral_before_deg = result.min_dihedral_after_deg = smallest_dihedral(made);
   const int most_in_vain = made.surface.triangles.size() < few_triangles ? 4 : 2;
   const int most_rounds = simplification.effort == Effort::high ? 8 : 4;
@@ -101,7 +104,7 @@ RenewalResult renew_where_poor(Simplification& search, const SimplifyOptions& si
     }
     try {
       latest.simplified = *simplified;
-      latest.filled = tetrahedralize(latest.surface, tetrahedralization, progress.for_improvement());
+      latest.filled = tetrahedralize(latest.surface, limited, progress.for_improvement());
     } catch (const MeshingFailed&) {
       break;
     } catch (const NotMeshable&) {

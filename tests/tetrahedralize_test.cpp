@@ -256,6 +256,12 @@ TEST_F(TetrahedralizeChild, MemoryLimitIsReported) {
   EXPECT_THAT(failure(analytic::sphere(1, 3), options), HasSubstr("memory"));
 }
 
+TEST_F(TetrahedralizeChild, MoreTetrahedraThanAllowedAreNotMade) {
+  TetrahedralizeOptions options;
+  options.most_tetrahedra = 100;
+  EXPECT_THROW(tetrahedralize(analytic::sphere(1, 3), options), NotMeshable);
+}
+
 TEST_F(TetrahedralizeChild, MissingWorkerIsReported) {
   TetrahedralizeOptions options;
   options.tetgen.worker = "/nonexistent/worker";

@@ -132,6 +132,12 @@ TetrahedralizeResult tetrahedralize(const SurfaceMesh& surface, const Tetrahedra
     result.estimated_tetrahedra = estimate_with_lattice(surface, points.size());
   }
   require_memory_of_tetrahedra(static_cast<double>(result.estimated_tetrahedra));
+  if (options.most_tetrahedra && result.estimated_tetrahedra > *options.most_tetrahedra)
+    throw NotMeshable({.what = "too many tetrahedra would be made",
+                       .where = {},
+                       .value = "about " + std::to_string(result.estimated_tetrahedra),
+                       .limit = std::to_string(*options.most_tetrahedra),
+                       .advice = "larger triangles or a larger --interior-size"});
   progress.announce("about " + std::to_string(result.estimated_tetrahedra) + " tetrahedra",
                     processor_seconds_a_tetrahedron * static_cast<double>(result.estimated_tetrahedra));
 

@@ -35,6 +35,8 @@ struct TetrahedralizeOptions {
   // None: the tetrahedra as TetGen made them.
   std::optional<OptimiseOptions> optimise = OptimiseOptions{};
   TetgenLimits tetgen;
+  // Where more are estimated NotMeshable is thrown before they are made.
+  std::optional<std::size_t> most_tetrahedra;
 };
 
 struct TetrahedralizeResult {

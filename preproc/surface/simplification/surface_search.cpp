@@ -334,9 +334,10 @@ void SurfaceSearch::bring_within(Trial& made, double share_to_yield, std::size_t
 // Few bad triangles, folds and wedges are mended where they are. No tree of the scan is made for this alone: on a large
 // one it would be the peak of the memory.
 void SurfaceSearch::mend_shape(Trial& made, const Progress& progress) const {
-  const std::vector<ShorterEdges> bad = find_shape_defects(made.candidate, mended_deg).bad;
-  if (bad.empty() || made.candidate.method != SimplifyMethod::lattice ||
-      static_cast<double>(bad.size()) > few_bad_places * static_cast<double>(made.candidate.faces()))
+  // Of a contraction only what no solver takes: it leaves more than patches can mend.
+  const double least = made.candidate.method == SimplifyMethod::lattice ? mended_deg : usable_deg;
+  const std::vector<ShorterEdges> bad = find_shape_defects(made.candidate, least).bad;
+  if (bad.empty() || static_cast<double>(bad.size()) > few_bad_places * static_cast<double>(made.candidate.faces()))
     return;
   const PreparedScan& scan = *made.candidate.scan;
   Trial mended = made;
@@ -344,7 +345,8 @@ void SurfaceSearch::mend_shape(Trial& made, const Progress& progress) const {
   MendPlacesOptions options;
   options.limit =
       wanted_.deviation ? (1 - for_volume) * wanted_.deviation->distance : made.candidate.fit.largest_distance;
-  options.least_angle_deg = mended_deg;
+  options.least_angle_deg = least;
+  if (!(options.limit > 0)) options.limit = mean_edge_length(made.candidate.mesh);
   // What is plane stays plane.
   if (scan.has_creases()) options.fidelity_of_diagonal = made.candidate.fit.fidelity_of_diagonal;
   const MendPlacesResult result = mend_places(mesh, mended.candidate.net, scan.reference(),
