@@ -1,3 +1,4 @@
+#include "preproc/mesh/cloud_formats.hpp"
 #include "preproc/mesh/polygon.hpp"
 #include "preproc/mesh/surface_formats.hpp"
 #include "preproc/mesh/text_scanner.hpp"
@@ -7,10 +8,11 @@
 namespace scan2fea {
 namespace {
 
-void read_vertices(TextScanner line, std::vector<Vec3>& vertices) {
+// Lines of `keyword`: `v` or `vn`.
+void read_vectors(TextScanner line, std::string_view keyword, std::vector<Vec3>& vertices) {
   for (; line.skip_space(); line.skip_line()) {
     const char* start = line.position();
-    if (line.word() != "v") continue;
+    if (line.word() != keyword) continue;
     if (vertices.size() == std::numeric_limits<std::uint32_t>::max())
       line.fail(start, "too many vertices", {}, std::to_string(vertices.size()));
     vertices.push_back(line.point());  // a weight or a colour may follow
@@ -51,9 +53,18 @@ void read_faces(TextScanner line, SurfaceMesh& mesh) {
 // Vertices first, then faces: a face may name vertices that stand behind it, and cutting a polygon needs their places.
 SurfaceMesh read_obj(const InputFile& file) {
   SurfaceMesh mesh;
-  read_vertices(TextScanner(file), mesh.vertices);
+  read_vectors(TextScanner(file), "v", mesh.vertices);
   read_faces(TextScanner(file), mesh);
   return mesh;
+}
+
+PointCloud read_obj_points(const InputFile& file) {
+  PointCloud cloud;
+  read_vectors(TextScanner(file), "v", cloud.points);
+  read_vectors(TextScanner(file), "vn", cloud.normals);
+  if (cloud.normals.size() != cloud.points.size()) cloud.normals.clear();
+  for (Vec3& n : cloud.normals) n = direction(n);
+  return cloud;
 }
 
 }  // namespace scan2fea

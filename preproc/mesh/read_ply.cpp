@@ -1,4 +1,5 @@
 #include "preproc/mesh/byte_order.hpp"
+#include "preproc/mesh/cloud_formats.hpp"
 #include "preproc/mesh/ply_header.hpp"
 #include "preproc/mesh/polygon.hpp"
 #include "preproc/mesh/surface_formats.hpp"
@@ -32,6 +33,17 @@ class TextBody {
     position();
     return scanner_.integer();
   }
+  // What is not finite is 0.
+  double any_number(PlyType) {
+    position();
+    TextScanner ahead = scanner_;
+    const std::string_view word = ahead.word();
+    if (is_keyword(word, "nan") || is_keyword(word, "-nan")) {
+      scanner_ = ahead;
+      return 0;
+    }
+    return scanner_.number();
+  }
   void skip(PlyType, std::uint64_t values) {
     for (; values > 0; --values) {
       position();
@@ -60,11 +72,13 @@ class BinaryBody {
   const char* position() const { return at_; }
   double coordinate(PlyType type) {
     const char* start = at_;
-    const double value = type == PlyType::float32   ? static_cast<double>(take<float>())
-                         : type == PlyType::float64 ? take<double>()
-                                                    : static_cast<double>(integer(type));
+    const double value = take_number(type);
     if (!std::isfinite(value)) fail(start, "not a finite coordinate", std::to_string(value));
     return value;
+  }
+  double any_number(PlyType type) {
+    const double value = take_number(type);
+    return std::isfinite(value) ? value : 0;
   }
   std::int64_t integer(PlyType type) {
     switch (type) {
@@ -97,6 +111,12 @@ class BinaryBody {
   }
 
  private:
+  double take_number(PlyType type) {
+    return type == PlyType::float32   ? static_cast<double>(take<float>())
+           : type == PlyType::float64 ? take<double>()
+                                      : static_cast<double>(integer(type));
+  }
+
   template <class T>
   T take() {
     if (end_ - at_ < static_cast<std::ptrdiff_t>(sizeof(T)))
@@ -123,6 +143,24 @@ template <class Body>
 class BodyReader {
  public:
   BodyReader(const InputFile& file, const PlyHeader& header) : file_(file), header_(header), body_(file, header) {}
+
+  PointCloud points() {
+    const PlyElement& vertex = vertex_element();
+    const auto has = [&](const char* axis) {
+      return std::ranges::any_of(vertex.properties, [&](const PlyProperty& p) { return p.name == axis; });
+    };
+    keeps_normals_ = has("nx") && has("ny") && has("nz");
+    for (const PlyElement& element : header_.elements) {
+      check_promise(element);
+      if (&element != &vertex) {
+        skip_rows(element);
+        continue;
+      }
+      read_vertices(element);
+      break;
+    }
+    return {.points = std::move(mesh_.vertices), .normals = std::move(normals_), .scanners = {}};
+  }
 
   SurfaceMesh run() {
     const PlyElement& vertex = vertex_element();
@@ -200,16 +238,19 @@ class BodyReader {
   void read_vertices(const PlyElement& element) {
     mesh_.vertices.reserve(element.count);
     for (std::uint64_t row = 0; row < element.count; ++row) {
-      Vec3 point = Vec3::Zero();
+      Vec3 point = Vec3::Zero(), normal = Vec3::Zero();
       for (const PlyProperty& property : element.properties) {
-        const bool is_axis =
-            !property.count_type && property.name.size() == 1 && property.name[0] >= 'x' && property.name[0] <= 'z';
-        if (is_axis)
-          point[property.name[0] - 'x'] = body_.coordinate(property.type);
+        const std::string& name = property.name;
+        const bool is_axis = !property.count_type && !name.empty() && name.back() >= 'x' && name.back() <= 'z';
+        if (is_axis && name.size() == 1)
+          point[name[0] - 'x'] = body_.coordinate(property.type);
+        else if (keeps_normals_ && is_axis && name.size() == 2 && name[0] == 'n')
+          normal[name[1] - 'x'] = body_.any_number(property.type);
         else
           skip_property(property);
       }
       mesh_.vertices.push_back(point);
+      if (keeps_normals_) normals_.push_back(direction(normal));
     }
   }
 
@@ -281,6 +322,8 @@ class BodyReader {
   const PlyHeader& header_;
   Body body_;
   SurfaceMesh mesh_;
+  bool keeps_normals_ = false;
+  std::vector<Vec3> normals_;
   std::vector<std::uint32_t> corners_;
 };
 
@@ -289,6 +332,12 @@ class BodyReader {
 bool is_ply(const InputFile& file) {
   TextScanner scanner(file);
   return scanner.word() == "ply";
+}
+
+PointCloud read_ply_points(const InputFile& file) {
+  const PlyHeader header = read_ply_header(file);
+  if (header.format == PlyFormat::ascii) return BodyReader<TextBody>(file, header).points();
+  return BodyReader<BinaryBody>(file, header).points();
 }
 
 SurfaceMesh read_ply(const InputFile& file) {

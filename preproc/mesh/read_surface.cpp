@@ -1,14 +1,14 @@
 #include "preproc/mesh/read_surface.hpp"
 
+#include "preproc/mesh/cloud_formats.hpp"
 #include "preproc/mesh/file_extension.hpp"
 #include "preproc/mesh/surface_formats.hpp"
 
 #include <string>
 
 namespace scan2fea {
-namespace {
 
-SurfaceMesh read(const InputFile& file) {
+SurfaceMesh read_faces_and_vertices(const InputFile& file) {
   if (is_ply(file)) return read_ply(file);
   if (is_off(file)) return read_off(file);
   if (is_binary_stl(file)) return read_stl(file);
@@ -17,18 +17,17 @@ SurfaceMesh read(const InputFile& file) {
   if (extension == ".obj") return read_obj(file);
   if (extension == ".ply") return read_ply(file);
   if (extension == ".off") return read_off(file);
-  file.fail("neither the content nor the extension tells a surface format", extension, ".stl, .obj, .ply or .off",
-            "converting it to one of these");
+  file.fail(
+      "neither the content nor the extension tells a surface format", extension, ".stl, .obj, .ply or .off",
+      is_cloud_format(file) ? "scan2fea reconstruct, since this is a point cloud" : "converting it to one of these");
 }
-
-}  // namespace
 
 SurfaceMesh read_surface(const std::filesystem::path& path) {
   const InputFile file(path);
-  SurfaceMesh mesh = read(file);
+  SurfaceMesh mesh = read_faces_and_vertices(file);
   if (mesh.triangles.empty())
     file.fail("the file holds no faces", std::to_string(mesh.vertices.size()) + " vertices", {},
-              "reconstructing a surface first, if this is a point cloud");
+              "scan2fea reconstruct, if this is a point cloud");
   return mesh;
 }
 

@@ -21,6 +21,9 @@ SurfaceMesh read_ply(const InputFile& file);
 // Geomview OFF, also with normals, colours or texture (NOFF, COFF, STOFF), which are passed over.
 SurfaceMesh read_off(const InputFile& file);
 
+// Any of them, without faces too.
+SurfaceMesh read_faces_and_vertices(const InputFile& file);
+
 // What the content alone tells.
 bool is_binary_stl(const InputFile& file);  // its triangle count and its size agree
 bool is_ply(const InputFile& file);

@@ -5,6 +5,7 @@
 #include "preproc/mesh/write_surface.hpp"
 #include "tests/analytic_meshes.hpp"
 #include "tests/binary_msh.hpp"
+#include "tests/cloud_files.hpp"
 #include "tests/structured_tets.hpp"
 
 #include <filesystem>
@@ -48,6 +49,29 @@ void write_surfaces(const fs::path& folder) {
     points += bytes(double(v == 1), std::endian::big) + bytes(double(v == 2), std::endian::big) + std::string(5, '\0');
   write(folder / "read_ply/big_endian.ply", big_endian + points + "\3" + bytes(0, std::endian::big) +
                                                 bytes(1, std::endian::big) + bytes(2, std::endian::big));
+}
+
+void write_clouds(const fs::path& folder) {
+  write(folder / "read_xyz/blanks.xyz", "# c\n0 0 0 1 0 0\n1.5 0 0 0 1 0\n0 -2 0 0 0 1\n0 0 3e-3 0 .6 .8\n");
+  write(folder / "read_xyz/commas.xyz",
+        "id,\"x\",y,z [mm],nx,ny,nz\n1,0,0,0,1,0,0\n2,1,0,0,0,1,0\n3,0,1,0,,,\n4,0,0,1,0,0,1\n");
+  write(folder / "read_xyz/counts.xyz", "2\r\n0;0;0\r\n1;0;0\r\n2\r\n0;1;0\r\n0;0;1\r\n");
+  write(folder / "read_ptx/grids.ptx",
+        "2\n2\n1 2 3\n1 0 0\n0 1 0\n0 0 1\n0 1 0 0\n-1 0 0 0\n0 0 1 0\n1 2 3 1\n0 0 0 0.5\n1 0 0 0.5\n0 1 0 0.5\n"
+        "0 0 1 0.5\n1\n1\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n5 0 0 1\n");
+  const std::string header =
+      "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z i\nSIZE 4 4 8 2\nTYPE F F F U\nCOUNT 1 1 1 2\nWIDTH 4\nHEIGHT 1\n"
+      "VIEWPOINT 0 0 9 1 0 0 0\nPOINTS 4\nDATA ";
+  const std::string data(4 * 20, '\x3f'), packed = lzf_literals(data);
+  write(folder / "read_pcd/ascii.pcd", header + "ascii\n0 0 0 1 2\n1 0 0 1 2\n0 1 0 1 2\nnan nan nan 1 2\n");
+  write(folder / "read_pcd/binary.pcd", header + "binary\n" + data);
+  write(folder / "read_pcd/compressed.pcd", header + "binary_compressed\n" +
+                                                scan2fea::bytes(static_cast<std::uint32_t>(packed.size())) +
+                                                scan2fea::bytes(static_cast<std::uint32_t>(data.size())) + packed);
+  const std::vector<Vec3> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  for (const int format : {0, 3, 6})
+    write(folder / ("read_las/format_" + std::to_string(format) + ".las"),
+          las_file(points, format < 6 ? 2 : 4, format));
 }
 
 void write_volumes(const fs::path& folder) {
@@ -109,10 +133,12 @@ void write_soups(const fs::path& folder) {
 }
 
 void write_seeds(const fs::path& folder) {
-  for (const char* target : {"read_stl", "read_obj", "read_ply", "read_off", "read_inp", "read_msh", "read_vtu",
-                             "read_feature_lines", "read_configuration", "repair"})
+  for (const char* target :
+       {"read_stl", "read_obj", "read_ply", "read_off", "read_xyz", "read_ptx", "read_pcd", "read_las", "read_inp",
+        "read_msh", "read_vtu", "read_feature_lines", "read_configuration", "repair"})
     fs::create_directories(folder / target);
   write_surfaces(folder);
+  write_clouds(folder);
   write_volumes(folder);
   write(folder / "read_feature_lines/forms.obj", "# c\nv 0 0 0\nv 1 0 0\nv 1 1 0 1\nf 1 2 3\nl 1 2 3\nl -1 \\\n -3\n");
   write(folder / "read_configuration/forms.toml",
