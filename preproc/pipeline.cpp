@@ -56,16 +56,46 @@ class StageLog {
   const StageListener& listener_;
 };
 
+std::string rounded(double value) {
+  return error_text(value, 4);
+}
+
+void describe(const ReconstructResult& result, StageRecord& record) {
+  record.changes = {{"points_kept", static_cast<double>(result.surface.vertices.size())},
+                    {"points_repeated", static_cast<double>(result.repeated)},
+                    {"points_thinned", static_cast<double>(result.thinned)},
+                    {"points_merged", static_cast<double>(result.merged)},
+                    {"outliers", static_cast<double>(result.outliers.size())},
+                    {"points_off_surface", static_cast<double>(result.off_surface)},
+                    {"faces_made", static_cast<double>(result.surface.triangles.size())},
+                    {"gaps_closed", static_cast<double>(result.gaps)},
+                    {"made_up_area", result.made_up_area},
+                    {"bridges", static_cast<double>(result.bridges.size())},
+                    {"noise", result.noise},
+                    {"spacing", result.spacing},
+                    {"largest_distance_of_points", result.distances.largest},
+                    {"rms_distance_of_points", result.distances.rms}};
+  record.remarks.push_back(result.choice);
+  if (result.thinned > 0)
+    record.remarks.push_back("of the points one in each cell of " + rounded(result.cell) + " was taken");
+  if (result.distances.largest > 0)
+    record.remarks.push_back("the given points but outliers lie within " + rounded(result.distances.largest) +
+                             " of the surface, the farthest at " + error_text(result.distances.farthest));
+  if (!result.outliers.empty())
+    record.remarks.push_back(std::to_string(result.outliers.size()) + " outliers were left out, the first at " +
+                             error_text(result.outliers.front()));
+  for (const Bridge& bridge : result.bridges)
+    record.remarks.push_back("at " + error_text(bridge.place) + " the surface spans " + rounded(bridge.length) +
+                             " between points " + rounded(bridge.spacing) +
+                             " apart from their own: a gap, or a hole that was bridged");
+}
+
 // Of all changes of one kind.
 struct ChangeGroup {
   std::size_t count = 0;
   double area = 0, volume = 0;
   const RepairChange* largest = nullptr;
 };
-
-std::string rounded(double value) {
-  return error_text(value, 4);
-}
 
 std::string describe(RepairKind kind, const ChangeGroup& group) {
   std::string text(name(kind));
@@ -366,10 +396,10 @@ void MeshMaker::bring_back() {
 
 }  // namespace
 
-PipelineResult run_pipeline(SurfaceMesh scan, const PipelineOptions& options, const Progress& progress,
-                            const StageListener& listener) {
-  PipelineResult result;
-  StageLog log(result.stages, listener);
+namespace {
+
+void run_stages(SurfaceMesh scan, const PipelineOptions& options, const Progress& progress, StageLog& log,
+                PipelineResult& result) {
   const auto stairs = options.simplify ? find_stair_steps(scan) : std::nullopt;
   if (options.repair)
     log.run("repair", [&](StageRecord& record) {
@@ -409,6 +439,30 @@ PipelineResult run_pipeline(SurfaceMesh scan, const PipelineOptions& options, co
                           {"curved_volume", curved.volume}};
       });
   }
+}
+
+}  // namespace
+
+PipelineResult run_pipeline(SurfaceMesh scan, const PipelineOptions& options, const Progress& progress,
+                            const StageListener& listener) {
+  PipelineResult result;
+  StageLog log(result.stages, listener);
+  run_stages(std::move(scan), options, progress, log, result);
+  return result;
+}
+
+PipelineResult run_pipeline(const PointCloud& cloud, const PipelineOptions& options, const Progress& progress,
+                            const StageListener& listener) {
+  PipelineResult result;
+  StageLog log(result.stages, listener);
+  SurfaceMesh scan;
+  log.run("reconstruct", [&](StageRecord& record) {
+    ReconstructResult reconstructed = reconstruct(cloud, options.reconstruct, progress);
+    describe(reconstructed, record);
+    scan = std::move(reconstructed.surface);
+    result.outliers = std::move(reconstructed.outliers);
+  });
+  run_stages(std::move(scan), options, progress, log, result);
   return result;
 }
 

@@ -1,10 +1,13 @@
-// The whole chain from a scan to a mesh: repair, enrich, simplify, tetrahedralize, second order.
+// The whole chain from a scan to a mesh: of a cloud reconstruct, repair, enrich, simplify, tetrahedralize, second
+// order.
 #pragma once
 
+#include "preproc/mesh/point_cloud.hpp"
 #include "preproc/mesh/progress.hpp"
 #include "preproc/mesh/surface_mesh.hpp"
 #include "preproc/mesh/tet_mesh.hpp"
 #include "preproc/surface/enrichment/enrich.hpp"
+#include "preproc/surface/reconstruction/reconstruct.hpp"
 #include "preproc/surface/repair/repair.hpp"
 #include "preproc/surface/simplification/simplify.hpp"
 #include "preproc/volume/tetrahedralize.hpp"
@@ -21,6 +24,7 @@ namespace scan2fea {
 
 // A stage that is not asked for is left out; its input then goes on as it is.
 struct PipelineOptions {
+  ReconstructOptions reconstruct;  // of a cloud
   std::optional<RepairOptions> repair = RepairOptions{};
   std::optional<EnrichOptions> enrich;  // not by default: a scan that is dense enough needs none
   std::optional<SimplifyOptions> simplify = SimplifyOptions{};
@@ -40,6 +44,7 @@ struct StageRecord {
 struct PipelineResult {
   // The scan as it was given, where repair changed it. What the result is compared with is `reference()`.
   std::optional<SurfaceMesh> given;
+  std::vector<Vec3> outliers;          // of a cloud, left out
   std::optional<double> solid_volume;  // what `volume_of_solid(reference())` gives, where it is known already
   RepairResult repaired;
   SurfaceMesh scan;       // after repair
@@ -61,6 +66,10 @@ using StageListener = std::function<void(const StageRecord&)>;
 // what the stages throw: NotMeshable, OutOfTime, MeshingFailed, WrongUsage, Cancelled; and NotMeshable where what came
 // out is unusable (see weak_places.hpp).
 PipelineResult run_pipeline(SurfaceMesh scan, const PipelineOptions& options = {}, const Progress& progress = {},
+                            const StageListener& listener = {});
+
+// The same of a cloud: its scan is the surface reconstructed from it.
+PipelineResult run_pipeline(const PointCloud& cloud, const PipelineOptions& options = {}, const Progress& progress = {},
                             const StageListener& listener = {});
 
 }  // namespace scan2fea

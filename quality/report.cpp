@@ -51,6 +51,14 @@ Json side_json(const OneSidedDistance& side) {
           {"rms_pct_diagonal", figure(side.rms_pct_diagonal)}};
 }
 
+Json points_json(const PointDistances& points) {
+  const Vec3& p = points.farthest;
+  return {{"count", points.points},
+          {"largest_distance", figure(points.largest)},
+          {"rms_distance", figure(points.rms)},
+          {"farthest_point", Json::array({figure(p.x()), figure(p.y()), figure(p.z())})}};
+}
+
 Json deviation_json(const Deviation& deviation) {
   const Vec3& p = deviation.farthest_point;
   return {{"volume_difference_pct", figure(deviation.volume_difference_pct)},
@@ -111,6 +119,15 @@ std::string surface_table(const Json& s) {
   return table;
 }
 
+std::string points_table(const Json& points) {
+  const Json& p = points["farthest_point"];
+  return "points of the cloud\n" +
+         row("distance from mesh", "largest " + text(points["largest_distance"], "%.6g") + ", RMS " +
+                                       text(points["rms_distance"], "%.6g") + ", of " + text(points["count"]) +
+                                       " points; the farthest at (" + text(p[0], "%.6g") + ", " + text(p[1], "%.6g") +
+                                       ", " + text(p[2], "%.6g") + ")");
+}
+
 std::string deviation_table(const Json& d) {
   std::string table = "deviation from the reference\n";
   table += row("volume", text(d["volume_difference_pct"]) + " %");
@@ -163,6 +180,7 @@ Json to_json(const Report& report) {
   Json json{{"schema", "scan2fea/1"}, {"input", report.input}};
   if (report.surface) json["surface"] = surface_json(*report.surface);
   if (report.deviation) json["deviation"] = deviation_json(*report.deviation);
+  if (report.points) json["points"] = points_json(*report.points);
   if (report.volume_mesh) json["volume_mesh"] = volume_mesh_json(*report.volume_mesh);
   json["regions"] = Json::array();
   for (const RegionFigures& region : report.regions)
@@ -175,6 +193,7 @@ std::string to_table(const Json& report) {
   std::string table = text(report["input"]) + "\n";
   if (report.contains("surface")) table += surface_table(report["surface"]);
   if (report.contains("deviation")) table += deviation_table(report["deviation"]);
+  if (report.contains("points")) table += points_table(report["points"]);
   if (report.contains("volume_mesh")) table += volume_mesh_table(report["volume_mesh"]);
   if (!report["regions"].empty()) table += "regions\n";
   for (const Json& region : report["regions"])

@@ -7,6 +7,7 @@
 //            components, genus, volume, area},
 //   deviation {volume_difference_pct, area_difference_pct, hausdorff_pct_diagonal, rms_pct_diagonal, farthest_point,
 //              from_mesh {hausdorff_pct_diagonal, rms_pct_diagonal}, from_reference {the same}},
+//   points {count, largest_distance, rms_distance, farthest_point},
 //   volume_mesh {nodes, tetrahedra, order, min_dihedral_deg, max_dihedral_deg, scaled_jacobian {min, mean}, edge_ratio,
 //                radius_edge_ratio, volume, inverted},
 //   regions [{name, area, faces}], gates [{name, operator, value, limit, pass}]
@@ -15,6 +16,7 @@
 #pragma once
 
 #include "quality/deviation.hpp"
+#include "quality/point_distances.hpp"
 #include "quality/tetrahedron_measures.hpp"
 #include "quality/triangle_measures.hpp"
 #include "quality/validity.hpp"
@@ -52,6 +54,7 @@ struct Report {
   std::string input;  // the file's name, or what else the user calls it
   std::optional<SurfaceFigures> surface;
   std::optional<Deviation> deviation;
+  std::optional<PointDistances> points;  // of a cloud, from the surface
   std::optional<TetSummary> volume_mesh;
   std::vector<RegionFigures> regions;
 };

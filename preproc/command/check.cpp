@@ -4,6 +4,7 @@
 #include "preproc/command/sub_commands.hpp"
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/error_text.hpp"
+#include "preproc/mesh/read_cloud.hpp"
 #include "preproc/mesh/read_surface.hpp"
 #include "preproc/surface/features/feature_file.hpp"
 #include "preproc/surface/repair/openings.hpp"
@@ -31,6 +32,20 @@ Loaded load(const std::filesystem::path& file) {
   loaded.volume_mesh = read_volume(file);
   loaded.surface = boundary_surface(*loaded.volume_mesh);
   return loaded;
+}
+
+// A cloud tells distances of its points only.
+void load_reference(const std::filesystem::path& file, std::optional<SurfaceMesh>& surface,
+                    std::optional<PointCloud>& cloud) {
+  if (volume_format(file)) {
+    surface = load(file).surface;
+    return;
+  }
+  Scan scan = read_scan(file);
+  if (auto* points = std::get_if<PointCloud>(&scan))
+    cloud = std::move(*points);
+  else
+    surface = std::move(std::get<SurfaceMesh>(scan));
 }
 
 // The openings' borders, for viewers, and the largest as lines of text.
@@ -66,13 +81,16 @@ int check(const CheckFlags& flags) {
   const Loaded mesh = load(flags.common.input);
   display.line(describe_input(mesh.surface, flags.common));
   std::optional<SurfaceMesh> reference;
-  if (flags.reference) reference = load(*flags.reference).surface;
+  std::optional<PointCloud> cloud;
+  if (flags.reference) load_reference(*flags.reference, reference, cloud);
   const Subject subject{.surface = &mesh.surface,
                         .reference = reference ? &*reference : nullptr,
                         .solid_volume = {},
                         .volume_mesh = mesh.volume_mesh ? &*mesh.volume_mesh : nullptr,
                         .stages = nullptr,
-                        .repaired = nullptr};
+                        .repaired = nullptr,
+                        .cloud = cloud ? &*cloud : nullptr,
+                        .outliers = nullptr};
   StagedOutputs outputs;
   if (flags.leaks) {
     const std::vector<Opening> openings = find_openings(mesh.surface);
@@ -90,7 +108,8 @@ SubCommand add_check(CLI::App& root) {
   const auto flags = std::make_shared<CheckFlags>();
   CLI::App* app = root.add_subcommand("check", "Figures and gates of a surface or a volume mesh");
   add_common_flags(*app, flags->common);
-  app->add_option("--reference", flags->reference, "What the surface is compared with, usually the scan")
+  app->add_option("--reference", flags->reference,
+                  "What the surface is compared with, usually the scan; of a cloud, its points' distances")
       ->type_name("FILE");
   app->add_option("--leaks", flags->leaks,
                   "Write the borders of the openings that the surface leaks through: OBJ lines")

@@ -5,7 +5,7 @@ namespace scan2fea::command {
 
 SubCommand add_enrich(CLI::App& root) {
   const auto job = std::make_shared<MakeMeshJob>();
-  job->pipeline = {.repair = {}, .enrich = {}, .simplify = {}, .tetrahedralize = {}, .order = 1};
+  job->pipeline = {.reconstruct = {}, .repair = {}, .enrich = {}, .simplify = {}, .tetrahedralize = {}, .order = 1};
   job->pipeline.enrich.emplace();
   CLI::App* app = root.add_subcommand("enrich", "One stage: add points where the scanner left too few");
   add_common_flags(*app, job->common);

@@ -43,6 +43,9 @@ Json measure(const Subject& subject, const CommonFlags& flags) {
     report.deviation =
         measure_deviation(*subject.surface, *subject.reference, {.seed = flags.seed, .reference_volume = volume});
   }
+  if (subject.surface != nullptr && subject.cloud != nullptr)
+    report.points = measure_point_distances(subject.cloud->points, *subject.surface,
+                                            subject.outliers ? *subject.outliers : std::vector<Vec3>{});
   if (subject.volume_mesh != nullptr) report.volume_mesh = measure_tetrahedra(*subject.volume_mesh);
   Json json = scan2fea::to_json(report);
   if (flags.unit) json["unit"] = *flags.unit;
@@ -52,6 +55,14 @@ Json measure(const Subject& subject, const CommonFlags& flags) {
   }
   if (subject.stages != nullptr) json["stages"] = to_json(*subject.stages);
   return json;
+}
+
+std::string size_text(const std::vector<Vec3>& points, const CommonFlags& flags) {
+  const BoundingBox box = bounding_box(points);
+  const Vec3 size = box.high - box.low;
+  char text[96];
+  std::snprintf(text, sizeof text, "%.6g x %.6g x %.6g ", size.x(), size.y(), size.z());
+  return text + flags.unit.value_or("(no --unit given)");
 }
 
 std::string describe(const GateResult& result) {
@@ -89,12 +100,14 @@ bool report_figures(const Subject& subject, const CommonFlags& flags, const std:
 }
 
 std::string describe_input(const SurfaceMesh& mesh, const CommonFlags& flags) {
-  const BoundingBox box = bounding_box(mesh.vertices);
-  const Vec3 size = box.high - box.low;
-  char text[160];
-  std::snprintf(text, sizeof text, ": %zu vertices, %zu triangles, %.6g x %.6g x %.6g ", mesh.vertices.size(),
-                mesh.triangles.size(), size.x(), size.y(), size.z());
-  return flags.input.string() + text + flags.unit.value_or("(no --unit given)");
+  return flags.input.string() + ": " + std::to_string(mesh.vertices.size()) + " vertices, " +
+         std::to_string(mesh.triangles.size()) + " triangles, " + size_text(mesh.vertices, flags);
+}
+
+std::string describe_input(const PointCloud& cloud, const CommonFlags& flags) {
+  return flags.input.string() + ": " + std::to_string(cloud.points.size()) + " points, " +
+         (cloud.left_out > 0 ? std::to_string(cloud.left_out) + " more marked as none, " : "") +
+         size_text(cloud.points, flags);
 }
 
 std::string describe_stage(const StageRecord& stage) {

@@ -21,6 +21,8 @@ struct Subject {
   const TetMesh* volume_mesh = nullptr;
   const std::vector<StageRecord>* stages = nullptr;
   const RepairResult* repaired = nullptr;
+  const PointCloud* cloud = nullptr;            // what the surface is a surface of
+  const std::vector<Vec3>* outliers = nullptr;  // of it
 };
 
 // Returns whether all gates pass. Stages --json and --report; says which gates failed.
@@ -29,6 +31,7 @@ bool report_figures(const Subject& subject, const CommonFlags& flags, const std:
 
 // "scan.ply: 48485 vertices, 96966 triangles, 12.3 x 4.5 x 6.7 mm": a wrong unit is the commonest mistake.
 std::string describe_input(const SurfaceMesh& mesh, const CommonFlags& flags);
+std::string describe_input(const PointCloud& cloud, const CommonFlags& flags);
 
 // "simplify: faces_before 96966, faces_after 12604 (0.41 s)", and its first remarks below.
 std::string describe_stage(const StageRecord& stage);

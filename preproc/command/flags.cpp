@@ -153,6 +153,14 @@ void add_size_flags(CLI::App& command, SizeFlags& flags) {
       if (one != other) one->excludes(other);
 }
 
+void add_reconstruct_flags(CLI::App& command, ReconstructOptions& options) {
+  command
+      .add_option("--largest-cloud", options.largest_cloud,
+                  "Thin a cloud to at most so many points; the default is 100000, or twice --faces")
+      ->check(CLI::Range(std::size_t{1000}, std::size_t{100'000'000}))
+      ->type_name("N");
+}
+
 void add_repair_flags(CLI::App& command, RepairOptions& options) {
   add_choice<RepairLevel>(
       command, "--repair", options.level,

@@ -59,6 +59,7 @@ void add_output_flag(CLI::App& command, std::filesystem::path& output);
 void add_time_limit_flag(CLI::App& command, std::optional<double>& seconds);
 void add_force_flag(CLI::App& command, bool& force);  // of all that take no common flags
 void add_size_flags(CLI::App& command, SizeFlags& flags);
+void add_reconstruct_flags(CLI::App& command, ReconstructOptions& options);
 void add_repair_flags(CLI::App& command, RepairOptions& options);
 void add_enrich_flags(CLI::App& command, EnrichOptions& options);
 void add_simplify_flags(CLI::App& command, SimplifyOptions& options);

@@ -6,6 +6,7 @@
 #include "preproc/command/input_warnings.hpp"
 #include "preproc/command/output_files.hpp"
 #include "preproc/mesh/error.hpp"
+#include "preproc/mesh/read_cloud.hpp"
 #include "preproc/mesh/read_surface.hpp"
 #include "preproc/mesh/write_surface.hpp"
 #include "preproc/surface/features/feature_file.hpp"
@@ -17,12 +18,13 @@ namespace scan2fea::command {
 namespace {
 
 // The stages know meshes and no files; a person wants to be told which of many files failed.
-PipelineResult run_naming_input(SurfaceMesh scan, const MakeMeshJob& job, const Progress& progress,
+PipelineResult run_naming_input(Scan& scan, const MakeMeshJob& job, const Progress& progress,
                                 ProgressDisplay& display) {
   const std::string input = job.common.input.string();
   const auto tell = [&](const StageRecord& stage) { display.line(describe_stage(stage)); };
   try {
-    return run_pipeline(std::move(scan), job.pipeline, progress, tell);
+    if (const auto* cloud = std::get_if<PointCloud>(&scan)) return run_pipeline(*cloud, job.pipeline, progress, tell);
+    return run_pipeline(std::move(std::get<SurfaceMesh>(scan)), job.pipeline, progress, tell);
   } catch (WrongUsage&) {
     throw;
   } catch (Cancelled&) {
@@ -71,6 +73,27 @@ void tell_what_was_left_out(const PipelineResult& result, const MakeMeshJob& job
   std::fprintf(stderr, "scan2fea: warning: %s: the time limit left out %s\n", job.common.input.c_str(), list.c_str());
 }
 
+Scan read_input(const MakeMeshJob& job) {
+  if (job.takes_clouds == TakesClouds::no) return read_surface(job.common.input);
+  if (job.takes_clouds == TakesClouds::only) return read_cloud(job.common.input);
+  return read_scan(job.common.input);
+}
+
+// A cloud is thinned to what the triangles need that are asked for: two points a triangle.
+void adapt_reconstruction(MakeMeshJob& job) {
+  ReconstructOptions& options = job.pipeline.reconstruct;
+  if (job.size.faces) options.largest_cloud = std::max(options.largest_cloud, 2 * *job.size.faces);
+  if (job.pipeline.repair) options.largest_gap_of_diagonal = job.pipeline.repair->largest_hole_of_diagonal;
+}
+
+std::string describe(const Scan& scan, const CommonFlags& flags) {
+  return std::visit([&](const auto& input) { return describe_input(input, flags); }, scan);
+}
+
+std::vector<std::string> warnings_of(const Scan& scan, const CommonFlags& flags) {
+  return std::visit([&](const auto& input) { return input_warnings(input, flags.unit); }, scan);
+}
+
 void require_writable_outputs(const MakeMeshJob& job) {
   std::vector<OutputPath> outputs = report_outputs(job.common);
   outputs.push_back({job.output});
@@ -87,6 +110,7 @@ void add_surface_flags(CLI::App& command, MakeMeshJob& job) {
   add_output_flag(command, job.output);
   add_time_limit_flag(command, job.time_limit);
   add_size_flags(command, job.size);
+  add_reconstruct_flags(command, job.pipeline.reconstruct);
   add_repair_flags(command, *job.pipeline.repair);
   command.add_flag("--enrich", job.enrich, "First add points where the scanner left too few (see scan2fea enrich)");
   add_enrich_flags(command, job.enrich_options);
@@ -102,14 +126,15 @@ int make_mesh(MakeMeshJob job) {
   require_writable_outputs(job);
   const std::vector<Gate> gates = parse_gates(job.common);
 
-  SurfaceMesh scan = read_surface(job.common.input);
-  display.line(describe_input(scan, job.common));
-  for (const std::string& warning : input_warnings(scan, job.common.unit))
+  Scan scan = read_input(job);
+  display.line(describe(scan, job.common));
+  for (const std::string& warning : warnings_of(scan, job.common))
     std::fprintf(stderr, "scan2fea: warning: %s: %s\n", job.common.input.c_str(), warning.c_str());
   if (job.features.read) job.pipeline.simplify->given_features = read_feature_lines(*job.features.read);
   if (job.pipeline.simplify) job.pipeline.simplify->size = job.size.target();
+  adapt_reconstruction(job);
   if (job.enrich) job.pipeline.enrich = job.enrich_options;
-  const PipelineResult result = run_naming_input(std::move(scan), job, progress, display);
+  const PipelineResult result = run_naming_input(scan, job, progress, display);
 
   tell_what_was_left_out(result, job);
   for (const WeakPlace& place : result.weak_places)
@@ -126,7 +151,9 @@ int make_mesh(MakeMeshJob job) {
                           .solid_volume = result.solid_volume,
                           .volume_mesh = result.volume_mesh ? &*result.volume_mesh : nullptr,
                           .stages = &result.stages,
-                          .repaired = &result.repaired};
+                          .repaired = &result.repaired,
+                          .cloud = std::get_if<PointCloud>(&scan),
+                          .outliers = &result.outliers};
     if (!report_figures(subject, job.common, gates, display, outputs)) {
       outputs.commit();
       return 1;

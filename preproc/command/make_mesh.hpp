@@ -1,9 +1,13 @@
-// What run, surface, repair, enrich, simplify and tetrahedralize have in common: read, work, measure, gate, write.
+// What run, surface, reconstruct, repair, enrich, simplify and tetrahedralize have in common: read, work, measure,
+// gate, write.
 #pragma once
 
 #include "preproc/command/flags.hpp"
 
 namespace scan2fea::command {
+
+// Whether the input may be a point cloud, or is one even where it has faces.
+enum class TakesClouds { no, too, only };
 
 struct MakeMeshJob {
   CommonFlags common;
@@ -12,7 +16,8 @@ struct MakeMeshJob {
   FeatureFileFlags features;
   PipelineOptions pipeline;
   std::optional<double> time_limit;  // of the whole command, seconds
-  bool enrich = false;               // --enrich of the commands in which that stage is a choice
+  TakesClouds takes_clouds = TakesClouds::no;
+  bool enrich = false;  // --enrich of the commands in which that stage is a choice
   EnrichOptions enrich_options;
   MshVersion msh_version = MshVersion::v4_1;
 };

@@ -5,7 +5,7 @@ namespace scan2fea::command {
 
 SubCommand add_repair(CLI::App& root) {
   const auto job = std::make_shared<MakeMeshJob>();
-  job->pipeline = {.repair = {}, .enrich = {}, .simplify = {}, .tetrahedralize = {}, .order = 1};
+  job->pipeline = {.reconstruct = {}, .repair = {}, .enrich = {}, .simplify = {}, .tetrahedralize = {}, .order = 1};
   job->pipeline.repair.emplace();
   CLI::App* app = root.add_subcommand("repair", "One stage: close, orient and clean a scanned surface");
   add_common_flags(*app, job->common);

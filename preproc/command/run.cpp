@@ -6,7 +6,8 @@ namespace scan2fea::command {
 
 SubCommand add_run(CLI::App& root) {
   const auto job = std::make_shared<MakeMeshJob>();
-  CLI::App* app = root.add_subcommand("run", "The whole chain: a scan in, a mesh for a solver out");
+  job->takes_clouds = TakesClouds::too;
+  CLI::App* app = root.add_subcommand("run", "The whole chain: a scan or a point cloud in, a mesh for a solver out");
   add_surface_flags(*app, *job);
   app->get_option("--holes")->description(
       "What becomes of holes: close; with keep no volume fits in (scan2fea surface)");

@@ -5,7 +5,7 @@ namespace scan2fea::command {
 
 SubCommand add_simplify(CLI::App& root) {
   const auto job = std::make_shared<MakeMeshJob>();
-  job->pipeline = {.repair = {}, .enrich = {}, .simplify = {}, .tetrahedralize = {}, .order = 1};
+  job->pipeline = {.reconstruct = {}, .repair = {}, .enrich = {}, .simplify = {}, .tetrahedralize = {}, .order = 1};
   job->pipeline.simplify.emplace();
   CLI::App* app = root.add_subcommand("simplify", "One stage: fewer and better triangles on a repaired surface");
   add_common_flags(*app, job->common);

@@ -14,6 +14,7 @@ struct SubCommand {
 
 SubCommand add_run(CLI::App& root);
 SubCommand add_surface(CLI::App& root);
+SubCommand add_reconstruct(CLI::App& root);
 SubCommand add_repair(CLI::App& root);
 SubCommand add_enrich(CLI::App& root);
 SubCommand add_simplify(CLI::App& root);

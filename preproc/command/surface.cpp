@@ -6,7 +6,9 @@ namespace scan2fea::command {
 SubCommand add_surface(CLI::App& root) {
   const auto job = std::make_shared<MakeMeshJob>();
   job->pipeline.tetrahedralize.reset();
-  CLI::App* app = root.add_subcommand("surface", "The surface stages alone: repair, enrich, simplify");
+  job->takes_clouds = TakesClouds::too;
+  CLI::App* app =
+      root.add_subcommand("surface", "The surface stages alone: of a cloud reconstruct, repair, enrich, simplify");
   add_surface_flags(*app, *job);
   return {app, [job] { return make_mesh(*job); }};
 }

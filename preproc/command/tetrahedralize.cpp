@@ -5,7 +5,7 @@ namespace scan2fea::command {
 
 SubCommand add_tetrahedralize(CLI::App& root) {
   const auto job = std::make_shared<MakeMeshJob>();
-  job->pipeline = {.repair = {}, .enrich = {}, .simplify = {}, .tetrahedralize = {}, .order = 1};
+  job->pipeline = {.reconstruct = {}, .repair = {}, .enrich = {}, .simplify = {}, .tetrahedralize = {}, .order = 1};
   job->pipeline.tetrahedralize.emplace();
   CLI::App* app =
       root.add_subcommand("tetrahedralize", "One stage: fill a closed surface with tetrahedra, its triangles kept");

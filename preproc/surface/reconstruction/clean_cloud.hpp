@@ -1,0 +1,29 @@
+// A cloud as it comes from scanners, made fit for a surface through its points.
+#pragma once
+
+#include "preproc/mesh/progress.hpp"
+#include "preproc/mesh/surface_mesh.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace scan2fea {
+
+struct CleanedCloud {
+  std::vector<Vec3> points;  // no two in one place, neighbours in space mostly beside one another
+  std::size_t repeated = 0;  // in the place of another
+  std::size_t thinned = 0;   // left out since another of their cell stays
+  std::size_t merged = 0;    // nearer to another than noise
+  std::vector<Vec3> outliers;
+  double cell = 0;   // of the thinning, model units; 0: none
+  double noise = 0;  // of single points, model units: an estimate
+};
+
+// Repeated points go; of more than `most` one in each cell of a grid stays (thinning.hpp); outliers go (outliers.hpp),
+// and where there are many points in a cell, cells that hold far fewer than those about them; points that are nearer
+// than four times the noise are merged. Throws NotMeshable where fewer than four points are left, or all are in one
+// place, on a line or in a plane. About 100 us a point up to `most`, a microsecond beyond.
+CleanedCloud clean_cloud(const std::vector<Vec3>& points, std::size_t most, const Progress& progress = {});
+
+}  // namespace scan2fea

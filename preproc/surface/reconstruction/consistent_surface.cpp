@@ -1,0 +1,159 @@
+#include "preproc/surface/reconstruction/consistent_surface.hpp"
+
+#include "preproc/mesh/error.hpp"
+#include "preproc/mesh/error_text.hpp"
+#include "preproc/surface/kernel/components.hpp"
+#include "preproc/surface/reconstruction/delaunay.hpp"
+#include "preproc/surface/reconstruction/minimum_cut.hpp"
+#include "quality/triangle_tree.hpp"
+#include "quality/validity.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+namespace scan2fea {
+namespace {
+
+// So that each component of a front has its normals outwards, by what it encloses with a fan about its centre.
+void orient(const std::vector<Vec3>& points, std::vector<Triangle>& triangles) {
+  SurfaceMesh mesh{points, std::move(triangles)};
+  const Components components = find_components(mesh);
+  std::vector<Vec3> centre(components.count, Vec3::Zero());
+  std::vector<double> corners(components.count, 0.0), volume(components.count, 0.0);
+  const auto of = [&](const Triangle& t) { return components.of_vertex[t[0]]; };
+  for (const Triangle& t : mesh.triangles)
+    for (const std::uint32_t v : t) centre[of(t)] += points[v], corners[of(t)] += 1;
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3 c = centre[of(t)] / corners[of(t)];
+    volume[of(t)] += (points[t[0]] - c).dot((points[t[1]] - c).cross(points[t[2]] - c));
+  }
+  for (Triangle& t : mesh.triangles)
+    if (volume[of(t)] < 0) std::swap(t[1], t[2]);
+  triangles = std::move(mesh.triangles);
+}
+
+struct Candidate {
+  ConsistentSurface surface;
+  std::string name;
+  std::size_t faults() const {
+    constexpr std::size_t of_body = 10;
+    return of_body * (surface.bodies - 1) + surface.off_surface + surface.crowded_edges + surface.overlong;
+  }
+};
+
+class Search {
+ public:
+  Search(const std::vector<Vec3>& points, const std::vector<double>& spacing, const Progress& progress)
+      : points_(points), spacing_(spacing), progress_(progress) {}
+
+  ConsistentSurface run() {
+    make_fronts();
+    std::vector<const WoundSurface*> all;
+    for (const WoundSurface& front : fronts_) all.push_back(&front);
+    add_candidate("what advancing fronts agree on", all);
+    // A share of faults goes with the number of points.
+    constexpr std::size_t points_of_fault = 20'000;
+    const bool is_clean = !candidates_.empty() && candidates_[0].faults() <= points_.size() / points_of_fault;
+    for (std::size_t i = 0; i < fronts_.size() && !is_clean; ++i)
+      add_candidate("an advancing front of beta " + error_text(betas_[i]), {&fronts_[i]});
+    if (candidates_.empty())
+      throw NotMeshable({.what = "no surface through the points encloses a volume",
+                         .where = {},
+                         .value = std::to_string(points_.size()) + " points",
+                         .limit = {},
+                         .advice = "a scan of all sides of the part"});
+    return choose();
+  }
+
+ private:
+  void make_fronts() {
+    constexpr std::size_t few = 50'000;  // beyond, the time of more fronts is better spent elsewhere
+    betas_ = points_.size() < few ? std::vector{0.3, 0.52, 0.7, 0.9} : std::vector{0.52, 0.9};
+    Delaunay delaunay(points_, spacing_);
+    progress_("reconstruction", 0.3);
+    cells_ = delaunay.cells();
+    for (const double beta : betas_) {
+      std::vector<Triangle> front = delaunay.advancing_front({.beta = beta});
+      for (Triangle t : front) {
+        std::ranges::sort(t);
+        supported_.insert(t);
+      }
+      orient(points_, front);
+      fronts_.push_back(wind(points_, cells_, std::move(front)));
+      progress_("reconstruction", 0.3 + 0.4 * static_cast<double>(fronts_.size()) / static_cast<double>(betas_.size()));
+    }
+  }
+
+  void add_candidate(std::string name, const std::vector<const WoundSurface*>& fronts) {
+    Candidate candidate{.surface = {}, .name = std::move(name)};
+    candidate.surface.triangles = cut_surface(points_, spacing_, cells_, fronts);
+    progress_("reconstruction", 0.75 + 0.05 * static_cast<double>(candidates_.size()));
+    if (candidate.surface.triangles.empty()) return;
+    measure(candidate.surface);
+    candidates_.push_back(std::move(candidate));
+  }
+
+  void measure(ConsistentSurface& surface) const {
+    const SurfaceMesh mesh{points_, surface.triangles};
+    const SurfaceValidity validity = check_validity(mesh);
+    surface.bodies = validity.components;
+    surface.crowded_edges = validity.non_manifold_edges;
+    std::vector<bool> used(points_.size(), false);
+    for (const Triangle& t : mesh.triangles) {
+      for (const std::uint32_t v : t) used[v] = true;
+      surface.overlong += length_in_spacings(points_, spacing_, t) > long_for_spacing;
+    }
+    const TriangleTree tree(mesh);
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      surface.off_surface += !used[i] && !tree.closest_within(points_[i], 0.5 * spacing_[i]);
+  }
+
+  ConsistentSurface choose() {
+    const auto best = std::ranges::min_element(candidates_, {}, &Candidate::faults);
+    const auto text = [](const ConsistentSurface& s) {
+      return std::to_string(s.bodies) + (s.bodies == 1 ? " body, " : " bodies, ") + std::to_string(s.off_surface) +
+             " points off it, " + std::to_string(s.crowded_edges) + " edges of four triangles, " +
+             std::to_string(s.overlong) + " overlong triangles";
+    };
+    best->surface.choice = best->name + ": " + text(best->surface);
+    if (candidates_.size() > 1) {
+      const auto worst = std::ranges::max_element(candidates_, {}, &Candidate::faults);
+      best->surface.choice += "; the best of " + std::to_string(candidates_.size());
+      if (worst->faults() > best->faults()) best->surface.choice += ", the worst with " + text(worst->surface);
+    }
+    for (Triangle t : best->surface.triangles) {
+      std::ranges::sort(t);
+      best->surface.is_made_up.push_back(!supported_.contains(t));
+    }
+    return std::move(best->surface);
+  }
+
+  const std::vector<Vec3>& points_;
+  const std::vector<double>& spacing_;
+  const Progress& progress_;
+  std::vector<double> betas_;
+  DelaunayCells cells_;
+  std::vector<WoundSurface> fronts_;
+  std::set<Triangle> supported_;  // by a front
+  std::vector<Candidate> candidates_;
+};
+
+}  // namespace
+
+double length_in_spacings(const std::vector<Vec3>& points, const std::vector<double>& spacing, const Triangle& t) {
+  double longest = 0, widest = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    longest = std::max(longest, (points[t[(k + 1) % 3]] - points[t[k]]).norm());
+    widest = std::max(widest, spacing[t[k]]);
+  }
+  return longest / widest;
+}
+
+ConsistentSurface find_consistent_surface(const std::vector<Vec3>& points, const std::vector<double>& spacing,
+                                          const Progress& progress) {
+  return Search(points, spacing, progress).run();
+}
+
+}  // namespace scan2fea

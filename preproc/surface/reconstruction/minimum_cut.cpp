@@ -1,0 +1,211 @@
+#include "preproc/surface/reconstruction/minimum_cut.hpp"
+
+#include "preproc/surface/kernel/parallel_blocks.hpp"
+#include "preproc/surface/reconstruction/winding_number.hpp"
+
+#include <algorithm>
+#include <boost/graph/boykov_kolmogorov_max_flow.hpp>
+#include <boost/graph/compressed_sparse_row_graph.hpp>
+#include <boost/range/iterator_range.hpp>
+#include <cmath>
+#include <unordered_map>
+
+namespace scan2fea {
+namespace {
+
+// A triangle's corners, however it is turned.
+Triangle sorted(Triangle t) {
+  std::ranges::sort(t);
+  return t;
+}
+struct Hash {
+  std::size_t operator()(const Triangle& t) const {
+    std::uint64_t h = t[0];
+    for (const std::uint32_t v : {t[1], t[2]}) h = (h ^ (h >> 29)) * 0x9e3779b97f4a7c15U + v;
+    return h ^ (h >> 32);
+  }
+};
+
+bool is_infinite(const DelaunayCells& cells, std::uint32_t cell) {
+  return std::ranges::find(cells.corners[cell], DelaunayCells::infinite) != cells.corners[cell].end();
+}
+
+struct Edge {
+  std::uint32_t from, to;
+  double capacity;
+};
+
+class Cut {
+ public:
+  Cut(const std::vector<Vec3>& points, const std::vector<double>& spacing, const DelaunayCells& cells,
+      const std::vector<const WoundSurface*>& surfaces)
+      : points_(points), spacing_(spacing), cells_(cells), winding_(cells.corners.size(), 0.0), gain_(winding_) {
+    const double share = 1 / static_cast<double>(surfaces.size());
+    for (const WoundSurface* surface : surfaces) {
+      for (const Triangle& t : surface->triangles) votes_[sorted(t)] += share;
+      for (std::size_t cell = 0; cell < winding_.size(); ++cell) winding_[cell] += share * surface->winding[cell];
+    }
+  }
+
+  std::vector<Triangle> run() {
+    cut();
+    std::vector<Triangle> voted = surface();
+    std::erase_if(voted, [&](const Triangle& t) { return !votes_.contains(sorted(t)); });
+    winding_ = wind(points_, cells_, std::move(voted)).winding;
+    cut();
+    return surface();
+  }
+
+ private:
+  // Each once.
+  template <class Visit>
+  void for_each_facet(const Visit& visit) const {
+    for (std::uint32_t cell = 0; cell < cells_.corners.size(); ++cell)
+      for (std::size_t k = 0; k < 4; ++k)
+        if (const std::uint32_t other = cells_.neighbours[cell][k]; cell < other) visit(cell, k, other);
+  }
+
+  void cut() {
+    edges_.clear();
+    std::ranges::fill(gain_, 0.0);
+    add_cells();
+    add_facets();
+    find_inside();
+  }
+
+  std::vector<Triangle> surface() const {
+    std::vector<Triangle> triangles;
+    for_each_facet([&](std::uint32_t cell, std::size_t k, std::uint32_t other) {
+      if (is_inside_[cell] == is_inside_[other]) return;
+      Triangle t = cells_.facet(cell, k);
+      if (!is_inside_[cell]) std::swap(t[1], t[2]);
+      triangles.push_back(t);
+    });
+    return triangles;
+  }
+
+  // How surely the triangle between two cells has the first inside, from -1 to 1.
+  double difference(std::uint32_t cell, std::uint32_t other) const {
+    return std::clamp(2 * (winding_[cell] - winding_[other]), -1.0, 1.0);
+  }
+
+  double area_of(const Triangle& t) const {
+    return 0.5 * (points_[t[1]] - points_[t[0]]).cross(points_[t[2]] - points_[t[0]]).norm();
+  }
+
+  // 1 up to twice the spacing, then as the square.
+  double cost(const Triangle& t) const {
+    constexpr double usual = 2;
+    double longest = 0, widest = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      longest = std::max(longest, (points_[t[(k + 1) % 3]] - points_[t[k]]).norm());
+      widest = std::max(widest, spacing_[t[k]]);
+    }
+    const double excess = std::max(1.0, longest / (usual * widest));
+    return excess * excess;
+  }
+
+  void add_facets() {
+    for_each_facet([&](std::uint32_t cell, std::size_t k, std::uint32_t other) {
+      const Triangle t = cells_.facet(cell, k);
+      if (std::ranges::find(t, DelaunayCells::infinite) != t.end()) return;
+      const double area = area_of(t);
+      const auto found = votes_.find(sorted(t));
+      const double votes = found == votes_.end() ? 0 : found->second;
+      // The votes hold for one side as far as the two differ.
+      const double step = difference(cell, other);
+      gain_[cell] += area * votes * step;
+      gain_[other] -= area * votes * step;
+      const double price = area * cost(t);
+      edges_.push_back({cell, other, price * (1 - votes * std::max(step, 0.0))});
+      edges_.push_back({other, cell, price * (1 - votes * std::max(-step, 0.0))});
+    });
+  }
+
+  void add_cells();
+  void find_inside();
+
+  const std::vector<Vec3>& points_;
+  const std::vector<double>& spacing_;
+  const DelaunayCells& cells_;
+  std::unordered_map<Triangle, double, Hash> votes_;  // the share of the surfaces that have it
+  std::vector<double> winding_;                       // about each cell's centre, mean of the surfaces, either way
+  std::vector<double> gain_;                          // of taking a cell as inside, areas
+  std::vector<Edge> edges_;                           // two for each facet, there and back
+  std::vector<bool> is_inside_;
+};
+
+void Cut::add_cells() {
+  for (std::uint32_t cell = 0; cell < cells_.corners.size(); ++cell) {
+    if (is_infinite(cells_, cell)) continue;
+    double area = 0;
+    for (std::size_t k = 0; k < 4; ++k) area += area_of(cells_.facet(cell, k)) / 4;
+    gain_[cell] += area * (2 * winding_[cell] - 1);
+  }
+}
+
+// Two nodes more than there are cells, source and sink. Boost wants the edges sorted, and the way back of each.
+void Cut::find_inside() {
+  using Graph = boost::compressed_sparse_row_graph<boost::directedS, boost::no_property, boost::no_property,
+                                                   boost::no_property, std::uint32_t, std::uint32_t>;
+  const auto cells = static_cast<std::uint32_t>(cells_.corners.size());
+  const std::uint32_t source = cells, sink = cells + 1;
+  for (std::uint32_t cell = 0; cell < cells; ++cell) {
+    constexpr double surely = 1e300;
+    const double gain = is_infinite(cells_, cell) ? -surely : gain_[cell];
+    if (gain == 0) continue;
+    edges_.push_back(gain > 0 ? Edge{source, cell, gain} : Edge{cell, sink, -gain});
+    edges_.push_back(gain > 0 ? Edge{cell, source, 0} : Edge{sink, cell, 0});
+  }
+  std::vector<std::uint32_t> order(edges_.size()), place(edges_.size());
+  for (std::uint32_t e = 0; e < order.size(); ++e) order[e] = e;
+  std::ranges::sort(order, {}, [&](std::uint32_t e) { return std::tuple(edges_[e].from, edges_[e].to, e); });
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> ends;
+  std::vector<double> capacity, residual(order.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) {
+    const Edge& edge = edges_[order[i]];
+    place[order[i]] = i;
+    ends.emplace_back(edge.from, edge.to);
+    capacity.push_back(edge.capacity);
+  }
+  const Graph graph(boost::edges_are_sorted, ends.begin(), ends.end(), cells + 2);
+  std::vector<Graph::edge_descriptor> by_place(order.size()), reverse(order.size());
+  const auto index = boost::get(boost::edge_index, graph);
+  for (const auto e : boost::make_iterator_range(boost::edges(graph))) by_place[get(index, e)] = e;
+  for (std::uint32_t i = 0; i < order.size(); ++i) reverse[i] = by_place[place[order[i] ^ 1U]];
+  std::vector<Graph::edge_descriptor> predecessor(cells + 2);
+  std::vector<boost::default_color_type> colour(cells + 2);
+  std::vector<std::uint32_t> distance(cells + 2);
+  const auto of_edge = [&](auto& values) { return boost::make_iterator_property_map(values.begin(), index); };
+  const auto of_node = [&](auto& values) {
+    return boost::make_iterator_property_map(values.begin(), boost::get(boost::vertex_index, graph));
+  };
+  boost::boykov_kolmogorov_max_flow(graph, of_edge(capacity), of_edge(residual), of_edge(reverse), of_node(predecessor),
+                                    of_node(colour), of_node(distance), boost::get(boost::vertex_index, graph), source,
+                                    sink);
+  is_inside_.resize(cells);
+  for (std::uint32_t cell = 0; cell < cells; ++cell) is_inside_[cell] = colour[cell] == boost::black_color;
+}
+
+}  // namespace
+
+WoundSurface wind(const std::vector<Vec3>& points, const DelaunayCells& cells, std::vector<Triangle> triangles) {
+  const WindingNumber winding(points, triangles);
+  WoundSurface surface{std::move(triangles), std::vector<double>(cells.corners.size(), 0.0)};
+  for_each_block(cells.corners.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t cell = first; cell < last; ++cell) {
+      if (is_infinite(cells, static_cast<std::uint32_t>(cell))) continue;
+      Vec3 centre = Vec3::Zero();
+      for (const std::uint32_t v : cells.corners[cell]) centre += points[v] / 4;
+      surface.winding[cell] = std::min(std::abs(winding(centre)), 1.0);
+    }
+  });
+  return surface;
+}
+
+std::vector<Triangle> cut_surface(const std::vector<Vec3>& points, const std::vector<double>& spacing,
+                                  const DelaunayCells& cells, const std::vector<const WoundSurface*>& surfaces) {
+  return Cut(points, spacing, cells, surfaces).run();
+}
+
+}  // namespace scan2fea

@@ -1,0 +1,116 @@
+#include "preproc/surface/reconstruction/reconstruct.hpp"
+
+#include "preproc/mesh/error.hpp"
+#include "preproc/mesh/error_text.hpp"
+#include "preproc/surface/reconstruction/clean_cloud.hpp"
+#include "preproc/surface/reconstruction/consistent_surface.hpp"
+#include "preproc/surface/reconstruction/point_neighbours.hpp"
+#include "preproc/surface/reconstruction/surface_patches.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+
+namespace scan2fea {
+namespace {
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+// A patch is a gap of the scan that is closed by what no point shows.
+void require_small_gaps(const std::vector<SurfacePatch>& gaps, const BoundingBox& box,
+                        const std::optional<double>& largest_of_diagonal) {
+  if (gaps.empty() || !largest_of_diagonal) return;
+  const double limit = *largest_of_diagonal * box.diagonal();
+  if (gaps.front().size <= limit) return;
+  throw NotMeshable({.what = "the cloud shows no solid: nothing was measured over a gap",
+                     .where = {},
+                     .value = error_text(gaps.front().size),
+                     .limit = error_text(limit),
+                     .advice = "a scan of all sides of the part, or --largest-hole all",
+                     .at = gaps.front().place});
+}
+
+void find_bridges(const std::vector<Vec3>& points, const std::vector<double>& spacing,
+                  const std::vector<Triangle>& triangles, ReconstructResult& result) {
+  std::vector<bool> is_long;
+  for (const Triangle& t : triangles) is_long.push_back(length_in_spacings(points, spacing, t) > long_for_spacing);
+  for (const SurfacePatch& patch : find_patches(points, triangles, is_long)) {
+    Bridge bridge{Vec3::Zero(), 0, 0, patch.triangles.size()};
+    for (const std::uint32_t f : patch.triangles)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t a = triangles[f][k], b = triangles[f][(k + 1) % 3];
+        const double length = (points[a] - points[b]).norm();
+        if (length > bridge.length)
+          bridge = {0.5 * (points[a] + points[b]), length, std::max(spacing[a], spacing[b]), bridge.triangles};
+      }
+    result.bridges.push_back(bridge);
+  }
+  std::ranges::stable_sort(result.bridges, std::greater(), &Bridge::length);
+}
+
+// Of an open scene a closed surface holds what happens to be closed.
+void require_solid(const ConsistentSurface& found, std::size_t points) {
+  constexpr double most = 0.1;
+  const double share = static_cast<double>(found.off_surface) / static_cast<double>(points);
+  if (share <= most) return;
+  throw NotMeshable({.what = "the cloud shows no solid: points lie off any closed surface through the others",
+                     .where = {},
+                     .value = error_text(100 * share, 3) + " % of " + std::to_string(points) + " points",
+                     .limit = error_text(100 * most, 3) + " %",
+                     .advice = "a scan of all sides of the part"});
+}
+
+// Those that a triangle uses, in their order.
+SurfaceMesh used_points(const std::vector<Vec3>& points, std::vector<Triangle> triangles) {
+  constexpr std::uint32_t none = ~std::uint32_t{0};
+  std::vector<std::uint32_t> number(points.size(), none);
+  for (const Triangle& t : triangles)
+    for (const std::uint32_t v : t) number[v] = 0;
+  SurfaceMesh mesh;
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    if (number[v] == none) continue;
+    number[v] = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.push_back(points[v]);
+  }
+  for (Triangle& t : triangles)
+    for (std::uint32_t& v : t) v = number[v];
+  mesh.triangles = std::move(triangles);
+  return mesh;
+}
+
+}  // namespace
+
+ReconstructResult reconstruct(const PointCloud& cloud, const ReconstructOptions& options, const Progress& progress) {
+  ReconstructResult result;
+  CleanedCloud cleaned = clean_cloud(cloud.points, options.largest_cloud, progress);
+  result.repeated = cleaned.repeated;
+  result.thinned = cleaned.thinned;
+  result.merged = cleaned.merged;
+  result.outliers = std::move(cleaned.outliers);
+  result.cell = cleaned.cell;
+  result.noise = cleaned.noise;
+  const std::vector<Vec3>& points = cleaned.points;
+  const std::vector<double> spacing = point_spacing(points, PointNeighbours(points));
+  result.spacing = median(spacing);
+
+  ConsistentSurface found = find_consistent_surface(points, spacing, progress);
+  const std::vector<SurfacePatch> gaps = find_patches(points, found.triangles, found.is_made_up);
+  require_solid(found, points.size());
+  require_small_gaps(gaps, bounding_box(points), options.largest_gap_of_diagonal);
+  for (const SurfacePatch& gap : gaps) result.made_up_area += gap.area;
+  result.gaps = gaps.size();
+  result.off_surface = found.off_surface;
+  result.choice = std::move(found.choice);
+  find_bridges(points, spacing, found.triangles, result);
+  result.surface = used_points(points, std::move(found.triangles));
+  progress("reconstruction", 0.95);
+  result.distances = measure_point_distances(cloud.points, result.surface, result.outliers);
+  return result;
+}
+
+}  // namespace scan2fea

@@ -1,0 +1,71 @@
+// A surface through the points of a cloud.
+#pragma once
+
+#include "preproc/mesh/point_cloud.hpp"
+#include "preproc/mesh/progress.hpp"
+#include "preproc/mesh/surface_mesh.hpp"
+#include "quality/point_distances.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace scan2fea {
+
+enum class ReconstructionMethod {
+  automatic,        // what fits the cloud best, told with the reason
+  advancing_front,  // through the points (delaunay.hpp, minimum_cut.hpp)
+};
+
+struct ReconstructOptions {
+  ReconstructionMethod method = ReconstructionMethod::automatic;
+
+  // Of larger clouds one point in each cell of a grid is taken, so that at most these are left. 1000 and more. 100,000:
+  // a surface of 200,000 triangles, ten times what a mesh for a solver has, in some ten seconds.
+  std::size_t largest_cloud = 100'000;
+
+  // Gaps of the scan, where no front finds triangles, are closed up to this fraction of the bounding box's diagonal; a
+  // larger one is an error. Unset: all are closed. [0, 1]. As RepairOptions::largest_hole_of_diagonal.
+  std::optional<double> largest_gap_of_diagonal = 0.35;
+};
+
+// A place where the surface spans what no points are near: a hole that was bridged, or a gap of the scan.
+struct Bridge {
+  Vec3 place;      // the middle of its longest edge
+  double length;   // of that edge
+  double spacing;  // of the points at its ends, the larger
+  std::size_t triangles;
+};
+
+struct ReconstructResult {
+  SurfaceMesh surface;  // vertices are points of the cloud, all of them used; closed and oriented outwards
+
+  std::size_t repeated = 0;     // points in the place of others
+  std::size_t thinned = 0;      // left out since a neighbour stays
+  std::size_t merged = 0;       // nearer to another than noise
+  std::vector<Vec3> outliers;   // left out, since no surface through their neighbours holds them
+  std::size_t gaps = 0;         // patches that close what no front does
+  double made_up_area = 0;      // of them
+  std::size_t off_surface = 0;  // points that were kept, but lie off the surface by half of the spacing
+  double cell = 0;              // of the grid by which was thinned; 0: it was not
+  double noise = 0;             // of single points: an estimate
+  double spacing = 0;           // of the points that stayed: median
+  PointDistances distances;     // of the given points without outliers from the surface
+  std::vector<Bridge> bridges;  // longest first
+  std::string choice;           // which surface was taken, and why
+};
+
+// The cloud is cleaned (clean_cloud.hpp); advancing fronts of several settings and what they agree on are each made a
+// closed surface by a minimum cut; the one taken is the most consistent: few pieces, points off it, edges of four
+// triangles, and triangles that are far longer than the spacing. It may still have such edges, and pieces that are no
+// body: repair.hpp mends that. Throws NotMeshable: too few points, all in one place, on a line or in a plane, or no
+// closed surface through most of them. Parallel in part; the same for any number of threads.
+//
+// Not guaranteed: that details finer than the spacing come out, that holes with fewer than about eight points along
+// their rim stay open, nor that an open scene (terrain, a room) becomes what it shows.
+ReconstructResult reconstruct(const PointCloud& cloud, const ReconstructOptions& options = {},
+                              const Progress& progress = {});
+
+}  // namespace scan2fea
