@@ -37,6 +37,7 @@ void orient(const std::vector<Vec3>& points, std::vector<Triangle>& triangles) {
 struct Candidate {
   ConsistentSurface surface;
   std::string name;
+  std::vector<const WoundSurface*> fronts;
   std::size_t faults() const {
     constexpr std::size_t of_body = 10;
     return of_body * (surface.bodies - 1) + surface.off_surface + surface.crowded_edges + surface.overlong;
@@ -64,6 +65,7 @@ class Search {
                          .value = std::to_string(points_.size()) + " points",
                          .limit = {},
                          .advice = "a scan of all sides of the part"});
+    join_best();
     return choose();
   }
 
@@ -87,12 +89,23 @@ class Search {
   }
 
   void add_candidate(std::string name, const std::vector<const WoundSurface*>& fronts) {
-    Candidate candidate{.surface = {}, .name = std::move(name)};
+    Candidate candidate{.surface = {}, .name = std::move(name), .fronts = fronts};
     candidate.surface.triangles = cut_surface(points_, spacing_, cells_, fronts);
     progress_("reconstruction", 0.75 + 0.05 * static_cast<double>(candidates_.size()));
     if (candidate.surface.triangles.empty()) return;
     measure(candidate.surface);
     candidates_.push_back(std::move(candidate));
+  }
+
+  void join_best() {
+    const auto best = std::ranges::min_element(candidates_, {}, &Candidate::faults);
+    if (best->surface.bodies == 1) return;
+    constexpr double longest = 2;  // spacings: wider gaps are no accident of a front
+    Candidate joined{.surface = {}, .name = best->name + " with its pieces joined", .fronts = best->fronts};
+    joined.surface.triangles = join_pieces(points_, spacing_, cells_, best->fronts, best->surface.triangles, longest);
+    if (joined.surface.triangles.empty()) return;
+    measure(joined.surface);
+    candidates_.push_back(std::move(joined));
   }
 
   void measure(ConsistentSurface& surface) const {

@@ -1,5 +1,6 @@
 #include "preproc/surface/reconstruction/minimum_cut.hpp"
 
+#include "preproc/surface/kernel/components.hpp"
 #include "preproc/surface/kernel/parallel_blocks.hpp"
 #include "preproc/surface/reconstruction/winding_number.hpp"
 
@@ -49,9 +50,15 @@ class Cut {
 
   std::vector<Triangle> run() {
     cut();
-    std::vector<Triangle> voted = surface();
-    std::erase_if(voted, [&](const Triangle& t) { return !votes_.contains(sorted(t)); });
-    winding_ = wind(points_, cells_, std::move(voted)).winding;
+    wind_what_is_voted(surface());
+    cut();
+    return surface();
+  }
+
+  std::vector<Triangle> run_joined(const std::vector<const WoundSurface*>& surfaces,
+                                   const std::vector<Triangle>& parted, double longest) {
+    wind_what_is_voted(parted);
+    find_gaps(surfaces, parted, longest);
     cut();
     return surface();
   }
@@ -63,6 +70,11 @@ class Cut {
     for (std::uint32_t cell = 0; cell < cells_.corners.size(); ++cell)
       for (std::size_t k = 0; k < 4; ++k)
         if (const std::uint32_t other = cells_.neighbours[cell][k]; cell < other) visit(cell, k, other);
+  }
+
+  void wind_what_is_voted(std::vector<Triangle> triangles) {
+    std::erase_if(triangles, [&](const Triangle& t) { return !votes_.contains(sorted(t)); });
+    winding_ = wind(points_, cells_, std::move(triangles)).winding;
   }
 
   void cut() {
@@ -122,6 +134,7 @@ class Cut {
     });
   }
 
+  void find_gaps(const std::vector<const WoundSurface*>& surfaces, const std::vector<Triangle>& parted, double longest);
   void add_cells();
   void find_inside();
 
@@ -130,6 +143,7 @@ class Cut {
   const DelaunayCells& cells_;
   std::unordered_map<Triangle, double, Hash> votes_;  // the share of the surfaces that have it
   std::vector<double> winding_;                       // about each cell's centre, mean of the surfaces, either way
+  std::vector<bool> is_gap_;                          // cells between pieces that belong together; or none
   std::vector<double> gain_;                          // of taking a cell as inside, areas
   std::vector<Edge> edges_;                           // two for each facet, there and back
   std::vector<bool> is_inside_;
@@ -141,6 +155,37 @@ void Cut::add_cells() {
     double area = 0;
     for (std::size_t k = 0; k < 4; ++k) area += area_of(cells_.facet(cell, k)) / 4;
     gain_[cell] += area * (2 * winding_[cell] - 1);
+    constexpr double to_join = 4;  // more than two voted sides cost
+    if (!is_gap_.empty() && is_gap_[cell]) gain_[cell] += to_join * area;
+  }
+}
+
+void Cut::find_gaps(const std::vector<const WoundSurface*>& surfaces, const std::vector<Triangle>& parted,
+                    double longest) {
+  const Components pieces = find_components({points_, parted});
+  std::vector<bool> used(points_.size(), false);
+  for (const Triangle& t : parted)
+    for (const std::uint32_t v : t) used[v] = true;
+  std::vector<Components> fronts;
+  for (const WoundSurface* surface : surfaces) fronts.push_back(find_components({points_, surface->triangles}));
+  const auto is_near = [&](std::uint32_t a, std::uint32_t b) {
+    return (points_[a] - points_[b]).norm() < longest * std::max(spacing_[a], spacing_[b]);
+  };
+  const auto belong_together = [&](std::uint32_t a, std::uint32_t b) {
+    return used[a] && used[b] && pieces.of_vertex[a] != pieces.of_vertex[b] &&
+           std::ranges::any_of(fronts, [&](const Components& f) { return f.of_vertex[a] == f.of_vertex[b]; });
+  };
+  is_gap_.assign(cells_.corners.size(), false);
+  for (std::uint32_t cell = 0; cell < cells_.corners.size(); ++cell) {
+    if (is_infinite(cells_, cell)) continue;
+    const auto& c = cells_.corners[cell];
+    bool is_short = true, is_between = false;
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t k = 0; k < i; ++k) {
+        is_short = is_short && is_near(c[i], c[k]);
+        is_between = is_between || belong_together(c[i], c[k]);
+      }
+    is_gap_[cell] = is_short && is_between;
   }
 }
 
@@ -206,6 +251,12 @@ WoundSurface wind(const std::vector<Vec3>& points, const DelaunayCells& cells, s
 std::vector<Triangle> cut_surface(const std::vector<Vec3>& points, const std::vector<double>& spacing,
                                   const DelaunayCells& cells, const std::vector<const WoundSurface*>& surfaces) {
   return Cut(points, spacing, cells, surfaces).run();
+}
+
+std::vector<Triangle> join_pieces(const std::vector<Vec3>& points, const std::vector<double>& spacing,
+                                  const DelaunayCells& cells, const std::vector<const WoundSurface*>& surfaces,
+                                  const std::vector<Triangle>& parted, double longest) {
+  return Cut(points, spacing, cells, surfaces).run_joined(surfaces, parted, longest);
 }
 
 }  // namespace scan2fea

@@ -27,4 +27,11 @@ WoundSurface wind(const std::vector<Vec3>& points, const DelaunayCells& cells, s
 std::vector<Triangle> cut_surface(const std::vector<Vec3>& points, const std::vector<double>& spacing,
                                   const DelaunayCells& cells, const std::vector<const WoundSurface*>& surfaces);
 
+// The same with pieces of `parted`, such a cut, joined across gaps that are no longer than `longest` spacings, where
+// one of the surfaces has them in one component: a front that turns itself inside out on a thin leg has sheets across
+// it, at which the cut parts the leg.
+std::vector<Triangle> join_pieces(const std::vector<Vec3>& points, const std::vector<double>& spacing,
+                                  const DelaunayCells& cells, const std::vector<const WoundSurface*>& surfaces,
+                                  const std::vector<Triangle>& parted, double longest);
+
 }  // namespace scan2fea

@@ -15,10 +15,11 @@ struct OutlierSearch {
 // Each point is held against planes that are fitted to seven neighbours of one of its own neighbours, itself left out,
 // and that reach as far as it: on a smooth surface, a crease or a corner one of them passes by. What is farther from
 // all of them than 0.28 of the spacing about it, and than five times the noise, is an outlier, and so is what is
-// isolated: five spacings away from the fourth neighbour of its own; but not where two of its neighbours are, too. Done twice, the second time with planes of what
-// the first has left. Precondition: no two points in one place. About 50 us a point; parallel, the same for any number
-// of threads. Not guaranteed: outliers that are nearer to the surface than a third of the spacing, or that lie in its
-// continuation, stay; and points of details that are finer than the spacing go.
+// isolated: five spacings away from the fourth neighbour of its own; but not where two of its neighbours are, too. Done
+// twice, the second time with planes of what the first has left. Precondition: no two points in one place. About 50 us
+// a point; parallel, the same for any number of threads. Not guaranteed: outliers that are nearer to the surface than a
+// third of the spacing, or that lie in its continuation, stay; and points of details that are finer than the spacing
+// go.
 OutlierSearch find_outliers(const std::vector<Vec3>& points);
 
 }  // namespace scan2fea
