@@ -1,0 +1,80 @@
+// Scans any closed surface in the computer (scanner.hpp):
+//
+//   make_cloud SURFACE OUT [--points N] [--positions N] [--noise PERCENT] [--outliers PERCENT] [--patches N] [--seed N]
+//              [--normals]
+//
+// Percentages: the noise of the diagonal, the outliers of the points; --patches are places in which few points stay.
+// OUT is XYZ: x y z, with --normals the normal, and 1 for an outlier, else 0. For one as large and bad as scans are:
+//
+//   make_cloud horse.ply cloud.xyz --points 2000000 --noise 0.05 --outliers 1 --patches 8
+#include "examples/scanner.hpp"
+#include "preproc/mesh/error.hpp"
+#include "preproc/mesh/output_file.hpp"
+#include "preproc/mesh/read_surface.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <string>
+
+namespace {
+
+using namespace scan2fea;
+
+void write(const ScannedCloud& scanned, bool with_normals, const std::string& path) {
+  OutputFile output(path);
+  std::string text;
+  for (std::size_t i = 0; i < scanned.cloud.points.size(); ++i) {
+    const Vec3 &p = scanned.cloud.points[i], &n = scanned.cloud.normals[i];
+    char row[200];
+    int size = std::snprintf(row, sizeof row, "%.9g %.9g %.9g", p.x(), p.y(), p.z());
+    if (with_normals)
+      size += std::snprintf(row + size, sizeof row - std::size_t(size), " %.6f %.6f %.6f", n.x(), n.y(), n.z());
+    text.append(row, std::size_t(size));
+    text += scanned.is_outlier[i] ? " 1\n" : " 0\n";
+  }
+  output.stream() << text;
+  output.commit();
+}
+
+int usage() {
+  std::fprintf(stderr,
+               "usage: make_cloud SURFACE OUT [--points N] [--positions N] [--noise PERCENT] [--outliers PERCENT]\n"
+               "                  [--patches N] [--seed N] [--normals]\n");
+  return 2;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::map<std::string, double> value{{"--points", 50'000}, {"--positions", 6}, {"--noise", 0},
+                                      {"--outliers", 0},    {"--patches", 0},   {"--seed", 1}};
+  bool with_normals = false;
+  if (argc < 3) return usage();
+  for (int i = 3; i < argc; ++i) {
+    const std::string name = argv[i];
+    if (name == "--normals") {
+      with_normals = true;
+      continue;
+    }
+    char* end = nullptr;
+    if (!value.contains(name) || i + 1 == argc) return usage();
+    value[name] = std::strtod(argv[++i], &end);
+    if (*end != '\0' || !(value[name] >= 0 && value[name] <= 1e8)) return usage();
+  }
+  try {
+    const ScannedCloud scanned =
+        scan_surface(read_surface(argv[1]), {.points = static_cast<std::size_t>(value["--points"]),
+                                             .positions = static_cast<int>(value["--positions"]),
+                                             .noise = value["--noise"] / 100,
+                                             .outliers = value["--outliers"] / 100,
+                                             .thinned_patches = static_cast<int>(value["--patches"]),
+                                             .seed = static_cast<std::uint64_t>(value["--seed"])});
+    write(scanned, with_normals, argv[2]);
+    std::printf("%s: %zu points\n", argv[2], scanned.cloud.points.size());
+  } catch (const Error& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return error.exit_code();
+  }
+}
