@@ -57,89 +57,151 @@ void require_extents(const std::vector<Vec3>& points) {
                      .advice = "a scan of all sides of the part"});
 }
 
+class Cleaning {
+ public:
+  Cleaning(const std::vector<Vec3>& given, std::size_t most) : points_(without_repeated(given)), most_(most) {
+    result_.repeated = given.size() - points_.size();
+    require_extents(points_);
+  }
+
+  CleanedCloud run(const Progress& progress) {
+    progress("cleaning the cloud", 0.2);
+    thin();
+    smooth();
+    progress("cleaning the cloud", 0.4);
+    drop_outliers();
+    progress("cleaning the cloud", 0.8);
+    merge();
+    require_extents(points_);
+    result_.points = std::move(points_);
+    return std::move(result_);
+  }
+
+ private:
+  enum class Fate : char { stays, goes, outlier };
+
+  void thin();
+  void drop_thin_cells(const ThinnedCloud& thinned);
+  void smooth();
+  void drop_outliers();
+  void merge();
+  void apply(const std::vector<Fate>& fate);
+
+  std::vector<Vec3> points_;
+  std::size_t most_;
+  std::vector<std::vector<Vec3>> stand_for_;  // of each point those of its cell that went; none where none did
+  CleanedCloud result_;
+};
+
+// Points that go take those with them that they stand for.
+void Cleaning::apply(const std::vector<Fate>& fate) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    if (fate[i] == Fate::outlier) {
+      result_.outliers.push_back(points_[i]);
+      if (!stand_for_.empty()) {
+        result_.outliers.insert(result_.outliers.end(), stand_for_[i].begin(), stand_for_[i].end());
+        result_.thinned -= stand_for_[i].size();
+      }
+    }
+    if (fate[i] == Fate::goes) ++result_.thinned;
+    if (fate[i] != Fate::stays) continue;
+    points_[kept] = points_[i];
+    if (!stand_for_.empty()) std::swap(stand_for_[kept], stand_for_[i]);
+    ++kept;
+  }
+  points_.resize(kept);
+  if (!stand_for_.empty()) stand_for_.resize(kept);
+}
+
+void Cleaning::thin() {
+  const ThinnedCloud thinned = thin_by_cells(points_, most_);
+  if (thinned.cell == 0) return;
+  std::vector<Vec3> kept;
+  for (std::size_t c = 0; c < thinned.kept.size(); ++c) {
+    kept.push_back(points_[thinned.kept[c]]);
+    std::vector<Vec3>& others = stand_for_.emplace_back();
+    for (std::size_t m = thinned.first[c]; m < thinned.first[c + 1]; ++m)
+      if (thinned.members[m] != thinned.kept[c]) others.push_back(points_[thinned.members[m]]);
+  }
+  result_.cell = thinned.cell;
+  result_.thinned = points_.size() - kept.size();
+  points_ = std::move(kept);
+  constexpr std::size_t telling = 8;  // points in a cell, mean
+  if (result_.thinned / points_.size() >= telling) drop_thin_cells(thinned);
+}
+
 // Cells that hold far fewer points than those about them: of no use, and where none of those is beside them, outliers.
-void drop_thin_cells(const ThinnedCloud& thinned, std::vector<Vec3>& points, CleanedCloud& result) {
+void Cleaning::drop_thin_cells(const ThinnedCloud& thinned) {
   constexpr std::size_t about = 9;
   constexpr double few = 0.15, beside = 2;  // of the median; cells
-  const PointNeighbours neighbours(points);
-  enum class Fate : char { stays, goes, outlier };
-  std::vector<Fate> fate(points.size(), Fate::stays);
-  for_each_block(points.size(), [&](std::size_t first, std::size_t last) {
+  const double mean = static_cast<double>(result_.thinned) / static_cast<double>(points_.size());
+  const PointNeighbours neighbours(points_);
+  std::vector<Fate> fate(points_.size(), Fate::stays);
+  for_each_block(points_.size(), [&](std::size_t first, std::size_t last) {
     std::array<PointNeighbours::Neighbour, about> found;
     for (std::size_t i = first; i < last; ++i) {
-      const auto near = neighbours.nearest(points[i], found);
-      std::array<std::uint32_t, about> count{};
-      for (std::size_t k = 0; k < near.size(); ++k) count[k] = thinned.count[near[k].point];
-      std::sort(count.begin(), count.begin() + static_cast<std::ptrdiff_t>(near.size()));
-      const double usual = count[near.size() / 2];
-      const double mean = static_cast<double>(result.thinned) / static_cast<double>(points.size());
-      if (thinned.count[i] > few * std::max(usual, 0.5 * mean)) continue;
+      const auto near = neighbours.nearest(points_[i], found);
+      std::array<double, about> count{};
+      for (std::size_t k = 0; k < near.size(); ++k) count[k] = static_cast<double>(thinned.count(near[k].point));
+      const double own = static_cast<double>(thinned.count(i));
+      const auto middle = count.begin() + static_cast<std::ptrdiff_t>(near.size() / 2);
+      std::nth_element(count.begin(), middle, count.begin() + static_cast<std::ptrdiff_t>(near.size()));
+      const double usual = std::max(*middle, 0.5 * mean);
+      if (own > few * usual) continue;
       const bool is_beside_full = std::ranges::any_of(near, [&](const auto& n) {
-        return n.distance < beside * thinned.cell && thinned.count[n.point] >= 0.5 * std::max(usual, mean);
+        return n.distance < beside * thinned.cell && static_cast<double>(thinned.count(n.point)) >= 0.5 * usual;
       });
       fate[i] = is_beside_full ? Fate::goes : Fate::outlier;
     }
   });
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (fate[i] == Fate::stays) points[kept++] = points[i];
-    if (fate[i] == Fate::outlier) result.outliers.push_back(points[i]);
-    if (fate[i] == Fate::goes) ++result.thinned;
-  }
-  points.resize(kept);
+  apply(fate);
 }
 
-void thin(std::vector<Vec3>& points, std::size_t most, CleanedCloud& result) {
-  const ThinnedCloud thinned = thin_by_cells(points, most);
-  std::vector<Vec3> kept;
-  if (thinned.cell > 0) {
-    for (const std::uint32_t i : thinned.kept) kept.push_back(points[i]);
-    result.cell = thinned.cell;
-    result.thinned = points.size() - kept.size();
-    points = std::move(kept);
-    constexpr std::size_t telling = 8;  // points in a cell, mean
-    if (result.thinned / points.size() >= telling) drop_thin_cells(thinned, points, result);
+// Where noise is larger than the spacing, a cloud is thick instead of a surface: points within its thickness become
+// their mean, until it is thin for its spacing.
+void Cleaning::smooth() {
+  constexpr double thick = 0.15;
+  for (int round = 0; round < 5; ++round) {
+    const Roughness rough = measure_roughness(points_);
+    if (rough.relative < thick) return;
+    std::vector<Vec3> merged = merge_near(points_, rough.reach, MergeTo::mean);
+    constexpr std::size_t fewest = 200;  // of which a surface can be made at all
+    if (merged.size() < fewest) return;
+    result_.merged += points_.size() - merged.size();
+    points_ = std::move(merged);
+    stand_for_.clear();
   }
+}
+
+void Cleaning::drop_outliers() {
+  const OutlierSearch search = find_outliers(points_);
+  result_.noise = search.noise;
+  std::vector<Fate> fate(points_.size(), Fate::stays);
+  for (std::size_t i = 0; i < search.is_outlier.size(); ++i)
+    if (search.is_outlier[i]) fate[i] = Fate::outlier;
+  apply(fate);
 }
 
 // A triangle whose edges are as short as the noise is has any normal. Where noise is small beside the spacing,
 // curvature counts as noise, too, and what is left to merge is what overlaps.
-double merging_radius(const std::vector<Vec3>& points, double noise) {
+void Cleaning::merge() {
   constexpr double of_noise = 4, of_spacing = 0.25;
-  std::vector<double> spacing = point_spacing(points, PointNeighbours(points));
+  std::vector<double> spacing = point_spacing(points_, PointNeighbours(points_));
   const auto middle = spacing.begin() + static_cast<std::ptrdiff_t>(spacing.size() / 2);
   std::ranges::nth_element(spacing, middle);
-  return *middle < of_noise * noise ? of_noise * noise : std::min(of_noise * noise, of_spacing * *middle);
+  const double noise = of_noise * result_.noise;
+  const double radius = *middle < noise ? noise : std::min(noise, of_spacing * *middle);
+  if (radius == 0) return;
+  std::vector<Vec3> merged = merge_near(points_, radius, MergeTo::plane);
+  result_.merged += points_.size() - merged.size();
+  points_ = std::move(merged);
 }
 
 }  // namespace
 
-CleanedCloud clean_cloud(const std::vector<Vec3>& given, std::size_t most, const Progress& progress) {
-  CleanedCloud result;
-  std::vector<Vec3> points = without_repeated(given);
-  result.repeated = given.size() - points.size();
-  require_extents(points);
-  progress("cleaning the cloud", 0.2);
-  thin(points, most, result);
-  progress("cleaning the cloud", 0.4);
-  const OutlierSearch search = find_outliers(points);
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!search.is_outlier.empty() && search.is_outlier[i])
-      result.outliers.push_back(points[i]);
-    else
-      points[kept++] = points[i];
-  }
-  points.resize(kept);
-  result.noise = search.noise;
-  progress("cleaning the cloud", 0.8);
-  result.points = points;
-  if (const double radius = merging_radius(points, result.noise); radius > 0) {
-    result.points = merge_near(points, radius).points;
-    result.merged = points.size() - result.points.size();
-  }
-  require_extents(result.points);
-  return result;
+CleanedCloud clean_cloud(const std::vector<Vec3>& points, std::size_t most, const Progress& progress) {
+  return Cleaning(points, most).run(progress);
 }
 
 }  // namespace scan2fea

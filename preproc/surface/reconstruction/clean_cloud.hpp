@@ -20,10 +20,11 @@ struct CleanedCloud {
   double noise = 0;  // of single points, model units: an estimate
 };
 
-// Repeated points go; of more than `most` one in each cell of a grid stays (thinning.hpp); outliers go (outliers.hpp),
-// and where there are many points in a cell, cells that hold far fewer than those about them; points that are nearer
-// than four times the noise are merged. Throws NotMeshable where fewer than four points are left, or all are in one
-// place, on a line or in a plane. About 100 us a point up to `most`, a microsecond beyond.
+// Repeated points go; of more than `most` one in each cell of a grid stays (thinning.hpp), and cells that hold far
+// fewer points than those about them go; where noise is larger than the spacing points become the mean of those about
+// them; outliers go (outliers.hpp), with all points that they stand for; points that are nearer than four times the
+// noise are merged. Throws NotMeshable where fewer than four points are left, or all are in one place, on a line or in
+// a plane. About 100 us a point up to `most`, a microsecond beyond.
 CleanedCloud clean_cloud(const std::vector<Vec3>& points, std::size_t most, const Progress& progress = {});
 
 }  // namespace scan2fea

@@ -36,6 +36,36 @@ std::vector<InCell> in_order(const std::vector<Vec3>& points, const Vec3& origin
   return order;
 }
 
+using Neighbour = PointNeighbours::Neighbour;
+
+struct Plane {
+  Vec3 centre = Vec3::Zero(), normal = Vec3::Zero();
+  double residual = 0, reach = 0;
+};
+
+Plane fit(const std::vector<Vec3>& points, std::span<const Neighbour> near) {
+  Plane plane;
+  const auto count = static_cast<double>(near.size());
+  for (const Neighbour& n : near) plane.centre += points[n.point] / count;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (const Neighbour& n : near) {
+    const Vec3 way = points[n.point] - plane.centre;
+    covariance += way * way.transpose();
+    plane.reach = std::max(plane.reach, way.norm());
+  }
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(covariance);
+  plane.normal = solver.eigenvectors().col(0);
+  plane.residual = std::sqrt(std::max(0.0, solver.eigenvalues()[0]) / count);
+  return plane;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
 std::size_t cells_of(const std::vector<InCell>& order) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < order.size(); ++i) count += i == 0 || order[i].cell != order[i - 1].cell;
@@ -72,43 +102,50 @@ ThinnedCloud thin_by_cells(const std::vector<Vec3>& points, std::size_t most) {
                            return (points[a.point] - mean).squaredNorm() < (points[b.point] - mean).squaredNorm();
                          });
     result.kept.push_back(nearest->point);
-    result.count.push_back(static_cast<std::uint32_t>(last - first));
+    result.first.push_back(first);
     first = last;
   }
+  result.first.push_back(order.size());
+  for (const InCell& in : order) result.members.push_back(in.point);
   return result;
 }
 
-MergedPoints merge_near(const std::vector<Vec3>& points, double radius) {
-  constexpr std::size_t most_near = 24, fewest_for_plane = 5;
-  using Neighbour = PointNeighbours::Neighbour;
+std::vector<Vec3> merge_near(const std::vector<Vec3>& points, double radius, MergeTo to) {
+  constexpr std::size_t most_near = 48, fewest_for_plane = 5;
   const PointNeighbours neighbours(points);
   std::vector<bool> dropped(points.size(), false);
-  MergedPoints merged;
+  std::vector<Vec3> merged;
   for (std::uint32_t i = 0; i < points.size(); ++i) {
     if (dropped[i]) continue;
     std::array<Neighbour, most_near> found;
-    auto near = neighbours.nearest(points[i], found);
+    const auto near = neighbours.nearest(points[i], found);
     std::size_t count = 0;
-    Vec3 mean = Vec3::Zero();
-    for (; count < near.size() && near[count].distance < radius; ++count) {
+    for (; count < near.size() && near[count].distance < radius; ++count)
       if (near[count].point > i) dropped[near[count].point] = true;
-      mean += points[near[count].point];
-    }
     Vec3 place = points[i];
-    if (count >= fewest_for_plane) {
-      mean /= static_cast<double>(count);
-      Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-      for (const Neighbour& n : near.first(count))
-        covariance += (points[n.point] - mean) * (points[n.point] - mean).transpose();
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-      solver.computeDirect(covariance);
-      const Vec3 normal = solver.eigenvectors().col(0);
-      place += normal.dot(mean - place) * normal;
+    if (to == MergeTo::mean || count >= fewest_for_plane) {
+      const Plane plane = fit(points, near.first(count));
+      place = to == MergeTo::mean ? plane.centre : Vec3(place + plane.normal.dot(plane.centre - place) * plane.normal);
     }
-    merged.kept.push_back(i);
-    merged.points.push_back(place);
+    merged.push_back(place);
   }
   return merged;
+}
+
+Roughness measure_roughness(const std::vector<Vec3>& points) {
+  constexpr std::size_t about = 8;
+  if (points.size() < about) return {};
+  const PointNeighbours neighbours(points);
+  std::vector<double> relative(points.size()), reach(points.size());
+  for_each_block(points.size(), [&](std::size_t first, std::size_t last) {
+    std::array<Neighbour, about> found;
+    for (std::size_t i = first; i < last; ++i) {
+      const Plane plane = fit(points, neighbours.nearest(points[i], found));
+      relative[i] = plane.residual / plane.reach;
+      reach[i] = plane.reach;
+    }
+  });
+  return {median(std::move(relative)), median(std::move(reach))};
 }
 
 }  // namespace scan2fea
