@@ -76,10 +76,11 @@ std::vector<std::string> all_names() {
   Report full;
   full.surface.emplace();
   full.deviation.emplace();
+  full.points.emplace();
   full.volume_mesh.emplace();
   const Json json = to_json(full);
   std::vector<std::string> names;
-  for (const char* section : {"surface", "deviation", "volume_mesh"})
+  for (const char* section : {"surface", "deviation", "points", "volume_mesh"})
     add_names(json[section], std::string(section) + ".", names);
   return names;
 }
@@ -169,6 +170,7 @@ double value_of(const Gate& gate, const Json& report) {
   std::string advice = "another figure: this one has no meaning for this input";
   if (!report.contains(section))
     advice = section == "deviation" ? "--reference, since a deviation is one from a reference"
+             : section == "points"  ? "a point cloud, as input or as --reference"
                                     : "a figure that this input has: it has none of " + section;
   throw WrongUsage({.what = "the report has no value for a required figure",
                     .where = "--require",

@@ -53,6 +53,53 @@ TEST_F(Command, EmptyFileIsUnreadable) {
   expect_failure("empty.stl", 3);
 }
 
+TEST_F(Command, CloudsBecomeMeshes) {
+  std::string rows = "x,y,z\n";
+  for (const Vec3& p : analytic::sphere(10, 4).vertices) {
+    char row[100];
+    std::snprintf(row, sizeof row, "%.9g,%.9g,%.9g\n", p.x(), p.y(), p.z());
+    rows += row;
+  }
+  write_text(path("ball.csv"), rows);
+  const std::string input = " '" + path("ball.csv") + "' --json - --quiet -o ";
+  const auto run = run_command("run" + input + "'" + path("ball.inp") + "' --faces 1000");
+  ASSERT_EQ(run.exit_code, 0) << run.standard_error;
+  const auto report = nlohmann::json::parse(run.standard_output);
+  EXPECT_EQ(report["stages"][0]["name"], "reconstruct");
+  EXPECT_EQ(report["points"]["count"], analytic::sphere(10, 4).vertices.size());
+  EXPECT_LT(report["points"]["largest_distance"], 0.2);
+  EXPECT_TRUE(report["surface"]["closed"]);
+  EXPECT_NEAR(report["surface"]["volume"], 4189, 0.02 * 4189);
+  EXPECT_EQ(run_command("surface" + input + "'" + path("ball.stl") + "' --faces 1000").exit_code, 0);
+  ASSERT_EQ(run_command("reconstruct" + input + "'" + path("ball.ply") + "'").exit_code, 0);
+  EXPECT_EQ(read_surface(path("ball.ply")).vertices.size(), analytic::sphere(10, 4).vertices.size());
+  const auto check = run_command("check '" + path("ball.ply") + "' --reference" + " '" + path("ball.csv") +
+                                 "' --quiet --require 'points.largest_distance<=1e-6'");
+  EXPECT_EQ(check.exit_code, 0) << check.standard_error;
+  EXPECT_EQ(run_command("repair" + input + "'" + path("again.ply") + "'").exit_code, 3) << "no surface";
+}
+
+TEST_F(Command, BadCloudsAreOneLine) {
+  std::string line, plane;
+  for (int i = 0; i < 30; ++i) {
+    line += std::to_string(i) + " 0 0\n";
+    for (int j = 0; j < 30; ++j) plane += std::to_string(i) + " " + std::to_string(j) + " 7\n";
+  }
+  const std::vector<std::pair<std::string, int>> clouds{{"", 3},
+                                                        {"0 0 0\n1 0 0\n0 1 0\n", 3},
+                                                        {"0 0 0\n0 0 0\n0 0 0\n0 0 0\n0 0 0\n", 4},
+                                                        {line, 4},
+                                                        {plane, 4},
+                                                        {plane + "nan nan nan\n", 3},
+                                                        {plane + "one two three\n", 3},
+                                                        {"1000000000\n" + plane, 3}};
+  for (std::size_t i = 0; i < clouds.size(); ++i) {
+    const std::string name = "cloud" + std::to_string(i) + ".xyz";
+    write_text(path(name), clouds[i].first);
+    expect_failure(name, clouds[i].second);
+  }
+}
+
 TEST_F(Command, HolesAreClosedOrKept) {
   SurfaceMesh tube = analytic::cylinder(1, 4, 40, 20);
   std::erase_if(tube.triangles, [&](const Triangle& t) { return *std::max_element(t.begin(), t.end()) >= 21 * 40; });

@@ -60,7 +60,7 @@ class Search {
     for (std::size_t i = 0; i < fronts_.size() && !is_clean; ++i)
       add_candidate("an advancing front of beta " + error_text(betas_[i]), {&fronts_[i]});
     if (candidates_.empty())
-      throw NotMeshable({.what = "no surface through the points encloses a volume",
+      throw NotMeshable({.what = "the cloud shows no solid: no surface through its points encloses a volume",
                          .where = {},
                          .value = std::to_string(points_.size()) + " points",
                          .limit = {},

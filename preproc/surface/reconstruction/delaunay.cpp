@@ -43,6 +43,11 @@ struct NotTooLong {
   double factor;
 };
 
+Triangle sorted(Triangle t) {
+  std::ranges::sort(t);
+  return t;
+}
+
 }  // namespace
 
 Triangle DelaunayCells::facet(std::uint32_t cell, std::size_t opposite) const {
@@ -103,6 +108,9 @@ std::vector<Triangle> Delaunay::advancing_front(const FrontSettings& settings) c
     Triangle& t = triangles.emplace_back();
     for (int k = 0; k < 3; ++k) t[static_cast<std::size_t>(k)] = f->vertex(k)->vertex_3()->info();
   }
+  // CGAL lists them by where they lie in memory.
+  std::ranges::sort(triangles, {}, sorted);
+  for (Triangle& t : triangles) std::ranges::rotate(t, std::ranges::min_element(t));
   return triangles;
 }
 
