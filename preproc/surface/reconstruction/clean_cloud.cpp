@@ -177,6 +177,7 @@ void Cleaning::smooth() {
 void Cleaning::drop_outliers() {
   const OutlierSearch search = find_outliers(points_);
   result_.noise = search.noise;
+  result_.has_outliers = search.has_outliers;
   std::vector<Fate> fate(points_.size(), Fate::stays);
   for (std::size_t i = 0; i < search.is_outlier.size(); ++i)
     if (search.is_outlier[i]) fate[i] = Fate::outlier;

@@ -16,8 +16,9 @@ struct CleanedCloud {
   std::size_t thinned = 0;   // left out since another of their cell stays
   std::size_t merged = 0;    // nearer to another than noise
   std::vector<Vec3> outliers;
-  double cell = 0;   // of the thinning, model units; 0: none
-  double noise = 0;  // of single points, model units: an estimate
+  bool has_outliers = false;  // more than what corners look like
+  double cell = 0;            // of the thinning, model units; 0: none
+  double noise = 0;           // of single points, model units: an estimate
 };
 
 // Repeated points go; of more than `most` one in each cell of a grid stays (thinning.hpp), and cells that hold far

@@ -40,7 +40,7 @@ struct Candidate {
   std::vector<const WoundSurface*> fronts;
   std::size_t faults() const {
     constexpr std::size_t of_body = 10;
-    return of_body * (surface.bodies - 1) + surface.off_surface + surface.crowded_edges + surface.overlong;
+    return of_body * (surface.bodies - 1) + surface.off_surface.size() + surface.crowded_edges + surface.overlong;
   }
 };
 
@@ -119,16 +119,16 @@ class Search {
       surface.overlong += length_in_spacings(points_, spacing_, t) > long_for_spacing;
     }
     const TriangleTree tree(mesh);
-    for (std::size_t i = 0; i < points_.size(); ++i)
-      surface.off_surface += !used[i] && !tree.closest_within(points_[i], 0.5 * spacing_[i]);
+    for (std::uint32_t i = 0; i < points_.size(); ++i)
+      if (!used[i] && !tree.closest_within(points_[i], 0.5 * spacing_[i])) surface.off_surface.push_back(i);
   }
 
   ConsistentSurface choose() {
     const auto best = std::ranges::min_element(candidates_, {}, &Candidate::faults);
     const auto text = [](const ConsistentSurface& s) {
-      return std::to_string(s.bodies) + (s.bodies == 1 ? " body, " : " bodies, ") + std::to_string(s.off_surface) +
-             " points off it, " + std::to_string(s.crowded_edges) + " edges of four triangles, " +
-             std::to_string(s.overlong) + " overlong triangles";
+      return std::to_string(s.bodies) + (s.bodies == 1 ? " body, " : " bodies, ") +
+             std::to_string(s.off_surface.size()) + " points off it, " + std::to_string(s.crowded_edges) +
+             " edges of four triangles, " + std::to_string(s.overlong) + " overlong triangles";
     };
     best->surface.choice = best->name + ": " + text(best->surface);
     if (candidates_.size() > 1) {

@@ -5,19 +5,20 @@
 #include "preproc/mesh/surface_mesh.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 namespace scan2fea {
 
 struct ConsistentSurface {
-  std::vector<Triangle> triangles;  // closed, oriented outwards, free of crossings
-  std::vector<bool> is_made_up;     // of each: no front has it, so that it closes a gap
-  std::size_t bodies = 0;           // pieces that hang together
-  std::size_t off_surface = 0;      // points that lie off it by half of the spacing
-  std::size_t crowded_edges = 0;    // of four triangles
-  std::size_t overlong = 0;         // triangles whose longest edge is more than `long_for_spacing` spacings
-  std::string choice;               // which it is of how many, and why
+  std::vector<Triangle> triangles;         // closed, oriented outwards, free of crossings
+  std::vector<bool> is_made_up;            // of each: no front has it, so that it closes a gap
+  std::size_t bodies = 0;                  // pieces that hang together
+  std::vector<std::uint32_t> off_surface;  // points that lie off it by half of the spacing
+  std::size_t crowded_edges = 0;           // of four triangles
+  std::size_t overlong = 0;                // triangles whose longest edge is more than `long_for_spacing` spacings
+  std::string choice;                      // which it is of how many, and why
 };
 
 inline constexpr double long_for_spacing = 3.5;

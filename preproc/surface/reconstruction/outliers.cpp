@@ -150,7 +150,7 @@ OutlierSearch find_outliers(const std::vector<Vec3>& points) {
   OutlierSearch result;
   result.is_outlier.resize(points.size());
   for (int pass = 0; pass < 2; ++pass) {
-    if (static_cast<std::size_t>(std::ranges::count(result.is_outlier, false)) < fewest) return {{}, 0};
+    if (static_cast<std::size_t>(std::ranges::count(result.is_outlier, false)) < fewest) return {};
     const Pass found(points, result.is_outlier);
     result.noise = median(found.distance);
     const auto is_beyond = [&](std::size_t i, double of_spacing) {
@@ -158,10 +158,10 @@ OutlierSearch find_outliers(const std::vector<Vec3>& points) {
     };
     std::size_t count = 0;
     for (std::size_t i = 0; i < points.size(); ++i) count += is_beyond(i, far);
-    const bool has_outliers = static_cast<double>(count) > telling_share * static_cast<double>(points.size());
+    result.has_outliers = static_cast<double>(count) > telling_share * static_cast<double>(points.size());
     for (std::size_t i = 0; i < points.size(); ++i)
       result.is_outlier[i] =
-          is_beyond(i, has_outliers ? near : far) || found.isolation[i] > isolated * found.spacing[i];
+          is_beyond(i, result.has_outliers ? near : far) || found.isolation[i] > isolated * found.spacing[i];
     result.is_outlier = without_crowds(points, result.is_outlier);
   }
   return result;

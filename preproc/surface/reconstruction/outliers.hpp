@@ -9,6 +9,7 @@ namespace scan2fea {
 
 struct OutlierSearch {
   std::vector<bool> is_outlier;  // of each point; none where there are too few points to tell
+  bool has_outliers = false;     // whether there are so many far ones that near ones are likely, too
   double noise = 0;              // the typical distance of a point from the flattest plane that holds it
 };
 

@@ -56,7 +56,7 @@ void find_bridges(const std::vector<Vec3>& points, const std::vector<double>& sp
 // Of an open scene a closed surface holds what happens to be closed.
 void require_solid(const ConsistentSurface& found, std::size_t points) {
   constexpr double most = 0.1;
-  const double share = static_cast<double>(found.off_surface) / static_cast<double>(points);
+  const double share = static_cast<double>(found.off_surface.size()) / static_cast<double>(points);
   if (share <= most) return;
   throw NotMeshable({.what = "the cloud shows no solid: points lie off any closed surface through the others",
                      .where = {},
@@ -104,7 +104,9 @@ ReconstructResult reconstruct(const PointCloud& cloud, const ReconstructOptions&
   require_small_gaps(gaps, bounding_box(points), options.largest_gap_of_diagonal);
   for (const SurfacePatch& gap : gaps) result.made_up_area += gap.area;
   result.gaps = gaps.size();
-  result.off_surface = found.off_surface;
+  result.off_surface = found.off_surface.size();
+  if (cleaned.has_outliers)
+    for (const std::uint32_t i : found.off_surface) result.outliers.push_back(points[i]);
   result.choice = std::move(found.choice);
   find_bridges(points, spacing, found.triangles, result);
   result.surface = used_points(points, std::move(found.triangles));
