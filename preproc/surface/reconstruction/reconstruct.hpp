@@ -45,7 +45,8 @@ struct ReconstructResult {
   std::size_t repeated = 0;     // points in the place of others
   std::size_t thinned = 0;      // left out since a neighbour stays
   std::size_t merged = 0;       // nearer to another than noise
-  std::vector<Vec3> outliers;   // left out, since no surface through their neighbours holds them
+  std::vector<Vec3> outliers;   // left out: no surface through their neighbours holds them; where there are more than
+                                // corners look like, those off the surface, too
   std::size_t gaps = 0;         // patches that close what no front does
   double made_up_area = 0;      // of them
   std::size_t off_surface = 0;  // points that were kept, but lie off the surface by half of the spacing
