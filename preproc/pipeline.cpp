@@ -61,7 +61,7 @@ std::string rounded(double value) {
 }
 
 void describe(const ReconstructResult& result, StageRecord& record) {
-  record.changes = {{"points_kept", static_cast<double>(result.surface.vertices.size())},
+  record.changes = {{"points_kept", static_cast<double>(result.kept)},
                     {"points_repeated", static_cast<double>(result.repeated)},
                     {"points_thinned", static_cast<double>(result.thinned)},
                     {"points_merged", static_cast<double>(result.merged)},

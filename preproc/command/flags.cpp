@@ -154,6 +154,10 @@ void add_size_flags(CLI::App& command, SizeFlags& flags) {
 }
 
 void add_reconstruct_flags(CLI::App& command, ReconstructOptions& options) {
+  add_choice<ReconstructionMethod>(
+      command, "--reconstruction", options.method,
+      named({ReconstructionMethod::automatic, ReconstructionMethod::advancing_front, ReconstructionMethod::poisson}),
+      "How a cloud becomes a surface: through its points, or smooth and near them");
   command
       .add_option("--largest-cloud", options.largest_cloud,
                   "Thin a cloud to at most so many points; the default is 100000, or twice --faces")

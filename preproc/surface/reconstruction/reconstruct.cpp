@@ -5,6 +5,7 @@
 #include "preproc/surface/reconstruction/clean_cloud.hpp"
 #include "preproc/surface/reconstruction/consistent_surface.hpp"
 #include "preproc/surface/reconstruction/point_neighbours.hpp"
+#include "preproc/surface/reconstruction/poisson.hpp"
 #include "preproc/surface/reconstruction/surface_patches.hpp"
 
 #include <algorithm>
@@ -83,6 +84,31 @@ SurfaceMesh used_points(const std::vector<Vec3>& points, std::vector<Triangle> t
   return mesh;
 }
 
+// Whose normals are those of the surface through the points.
+void take_poisson(ReconstructResult& result, const Progress& progress) {
+  progress("Poisson reconstruction", 0.9);
+  const SurfaceMesh& through = result.surface;
+  std::vector<Vec3> normals(through.vertices.size(), Vec3::Zero());
+  for (const Triangle& t : through.triangles)
+    for (const std::uint32_t v : t) normals[v] += area_vector(through, t);
+  std::vector<Vec3> points, used;
+  for (std::size_t v = 0; v < normals.size(); ++v) {
+    if (normals[v].norm() == 0) continue;
+    points.push_back(through.vertices[v]);
+    used.push_back(normals[v]);
+  }
+  SurfaceMesh smooth = poisson_surface(points, used, result.spacing);
+  if (smooth.triangles.empty())
+    throw NotMeshable({.what = "Poisson's reconstruction finds no surface",
+                       .where = {},
+                       .value = std::to_string(points.size()) + " points",
+                       .limit = {},
+                       .advice = "--reconstruction advancing-front"});
+  result.surface = std::move(smooth);
+  result.bridges.clear();
+  result.choice = "Poisson's surface, asked for, with normals of " + result.choice;
+}
+
 }  // namespace
 
 ReconstructResult reconstruct(const PointCloud& cloud, const ReconstructOptions& options, const Progress& progress) {
@@ -110,6 +136,8 @@ ReconstructResult reconstruct(const PointCloud& cloud, const ReconstructOptions&
   result.choice = std::move(found.choice);
   find_bridges(points, spacing, found.triangles, result);
   result.surface = used_points(points, std::move(found.triangles));
+  result.kept = result.surface.vertices.size();
+  if (options.method == ReconstructionMethod::poisson) take_poisson(result, progress);
   progress("reconstruction", 0.95);
   result.distances = measure_point_distances(cloud.points, result.surface, result.outliers);
   return result;

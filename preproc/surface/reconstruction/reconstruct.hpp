@@ -1,6 +1,7 @@
 // A surface through the points of a cloud.
 #pragma once
 
+#include "preproc/mesh/names.hpp"
 #include "preproc/mesh/point_cloud.hpp"
 #include "preproc/mesh/progress.hpp"
 #include "preproc/mesh/surface_mesh.hpp"
@@ -15,9 +16,17 @@
 namespace scan2fea {
 
 enum class ReconstructionMethod {
-  automatic,        // what fits the cloud best, told with the reason
+  automatic,        // what fits clouds best: today always the next one
   advancing_front,  // through the points (delaunay.hpp, minimum_cut.hpp)
+  poisson,          // smooth, near the points, for noisy organic scans (poisson.hpp)
 };
+inline constexpr NameTable<ReconstructionMethod, 3> reconstruction_method_names{
+    {{ReconstructionMethod::automatic, "auto"},
+     {ReconstructionMethod::advancing_front, "advancing-front"},
+     {ReconstructionMethod::poisson, "poisson"}}};
+constexpr std::string_view name_of(ReconstructionMethod method) {
+  return name_in(reconstruction_method_names, method);
+}
 
 struct ReconstructOptions {
   ReconstructionMethod method = ReconstructionMethod::automatic;
@@ -40,8 +49,9 @@ struct Bridge {
 };
 
 struct ReconstructResult {
-  SurfaceMesh surface;  // vertices are points of the cloud, all of them used; closed and oriented outwards
+  SurfaceMesh surface;  // vertices are points of the cloud, but of Poisson; closed and oriented outwards
 
+  std::size_t kept = 0;         // points that the surface goes through, or by, before Poisson
   std::size_t repeated = 0;     // points in the place of others
   std::size_t thinned = 0;      // left out since a neighbour stays
   std::size_t merged = 0;       // nearer to another than noise
@@ -61,8 +71,9 @@ struct ReconstructResult {
 // The cloud is cleaned (clean_cloud.hpp); advancing fronts of several settings and what they agree on are each made a
 // closed surface by a minimum cut; the one taken is the most consistent: few pieces, points off it, edges of four
 // triangles, and triangles that are far longer than the spacing. It may still have such edges, and pieces that are no
-// body: repair.hpp mends that. Throws NotMeshable: too few points, all in one place, on a line or in a plane, or no
-// closed surface through most of them. Parallel in part; the same for any number of threads.
+// body: repair.hpp mends that. Poisson takes its normals from that surface, which turns them by how it winds. Throws
+// NotMeshable: too few points, all in one place, on a line or in a plane, or no closed surface through most of them.
+// Parallel in part; the same for any number of threads.
 //
 // Not guaranteed: that details finer than the spacing come out, that holes with fewer than about eight points along
 // their rim stay open, nor that an open scene (terrain, a room) becomes what it shows.
