@@ -100,6 +100,16 @@ TEST(Reconstruct, NoiseLargerThanTheSpacingIsSmoothed) {
   EXPECT_NEAR(enclosed_volume(result.surface) / enclosed_volume(ball), 1, 0.03);
 }
 
+TEST(Reconstruct, PoissonIsSmoothAndNear) {
+  const SurfaceMesh ball = analytic::sphere(1, 4);
+  const ReconstructResult result = of_vertices(ball, {.method = ReconstructionMethod::poisson});
+  EXPECT_TRUE(check_validity(result.surface).closed());
+  EXPECT_EQ(check_validity(result.surface).genus, 0);
+  EXPECT_NEAR(enclosed_volume(result.surface) / enclosed_volume(ball), 1, 0.02);
+  EXPECT_LT(result.distances.largest, result.spacing);
+  EXPECT_EQ(result.kept, ball.vertices.size());
+}
+
 TEST(Reconstruct, RepeatedPointsCountOnce) {
   SurfaceMesh ball = analytic::sphere(1, 3);
   const std::size_t once = ball.vertices.size();

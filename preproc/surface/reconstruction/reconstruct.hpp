@@ -73,7 +73,7 @@ struct ReconstructResult {
 // triangles, and triangles that are far longer than the spacing. It may still have such edges, and pieces that are no
 // body: repair.hpp mends that. Poisson takes its normals from that surface, which turns them by how it winds. Throws
 // NotMeshable: too few points, all in one place, on a line or in a plane, or no closed surface through most of them.
-// Parallel in part; the same for any number of threads.
+// Parallel in part; the same for any number of threads, but of Poisson.
 //
 // Not guaranteed: that details finer than the spacing come out, that holes with fewer than about eight points along
 // their rim stay open, nor that an open scene (terrain, a room) becomes what it shows.
