@@ -1,5 +1,6 @@
 #include "preproc/surface/reconstruction/minimum_cut.hpp"
 
+#include "preproc/mesh/union_find.hpp"
 #include "preproc/surface/kernel/components.hpp"
 #include "preproc/surface/kernel/parallel_blocks.hpp"
 #include "preproc/surface/reconstruction/winding_number.hpp"
@@ -9,6 +10,7 @@
 #include <boost/graph/compressed_sparse_row_graph.hpp>
 #include <boost/range/iterator_range.hpp>
 #include <cmath>
+#include <map>
 #include <unordered_map>
 
 namespace scan2fea {
@@ -52,6 +54,7 @@ class Cut {
     cut();
     wind_what_is_voted(surface());
     cut();
+    join_at_edges();
     return surface();
   }
 
@@ -60,6 +63,7 @@ class Cut {
     wind_what_is_voted(parted);
     find_gaps(surfaces, parted, longest);
     cut();
+    join_at_edges();
     return surface();
   }
 
@@ -134,6 +138,8 @@ class Cut {
     });
   }
 
+  std::vector<std::uint32_t> around(std::uint32_t cell, std::uint32_t a, std::uint32_t b) const;
+  void join_at_edges();
   void find_gaps(const std::vector<const WoundSurface*>& surfaces, const std::vector<Triangle>& parted, double longest);
   void add_cells();
   void find_inside();
@@ -157,6 +163,66 @@ void Cut::add_cells() {
     gain_[cell] += area * (2 * winding_[cell] - 1);
     constexpr double to_join = 4;  // more than two voted sides cost
     if (!is_gap_.empty() && is_gap_[cell]) gain_[cell] += to_join * area;
+  }
+}
+
+// The cells about the edge ab, in order, from one that has it.
+std::vector<std::uint32_t> Cut::around(std::uint32_t cell, std::uint32_t a, std::uint32_t b) const {
+  const auto others = [&](std::uint32_t c) {
+    std::vector<std::size_t> found;
+    for (std::size_t k = 0; k < 4; ++k)
+      if (cells_.corners[c][k] != a && cells_.corners[c][k] != b) found.push_back(k);
+    return found;
+  };
+  std::vector<std::uint32_t> ring;
+  std::size_t leave = others(cell)[0];
+  for (std::uint32_t c = cell; ring.empty() || c != cell;) {
+    ring.push_back(c);
+    const std::vector<std::size_t> both = others(c);
+    const std::uint32_t stays = cells_.corners[c][both[0] == leave ? both[1] : both[0]];
+    c = cells_.neighbours[c][leave];
+    for (const std::size_t k : others(c))
+      if (cells_.corners[c][k] == stays) leave = k;
+  }
+  return ring;
+}
+
+// Pieces of the inside that meet in an edge alone are made one there, by the fewer of the cells that part them: a thin
+// part with few points is cut at such edges.
+void Cut::join_at_edges() {
+  UnionFind pieces(cells_.corners.size());
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::size_t, std::uint32_t>> edges;
+  for_each_facet([&](std::uint32_t cell, std::size_t k, std::uint32_t other) {
+    if (is_inside_[cell] && is_inside_[other]) pieces.unite(cell, other);
+    if (is_inside_[cell] == is_inside_[other]) return;
+    const Triangle t = cells_.facet(cell, k);
+    for (std::size_t i = 0; i < 3; ++i) {
+      auto& [count, of] = edges[std::minmax({t[i], t[(i + 1) % 3]})];
+      ++count;
+      of = is_inside_[cell] ? cell : other;
+    }
+  });
+  for (const auto& [edge, entry] : edges) {
+    if (entry.first != 4) continue;
+    const std::vector<std::uint32_t> ring = around(entry.second, edge.first, edge.second);
+    std::vector<std::vector<std::uint32_t>> gaps(1);  // runs of cells outside; the first cell is inside
+    std::uint32_t other_piece = entry.second;
+    for (const std::uint32_t cell : ring) {
+      if (!is_inside_[cell]) {
+        gaps.back().push_back(cell);
+      } else {
+        if (pieces.find(cell) != pieces.find(entry.second)) other_piece = cell;
+        if (!gaps.back().empty()) gaps.emplace_back();
+      }
+    }
+    if (gaps.back().empty()) gaps.pop_back();
+    std::erase_if(gaps, [&](const auto& gap) {
+      return std::ranges::any_of(gap, [&](std::uint32_t cell) { return is_infinite(cells_, cell); });
+    });
+    if (other_piece == entry.second || gaps.empty()) continue;
+    const auto& least = *std::ranges::min_element(gaps, {}, [](const auto& gap) { return gap.size(); });
+    for (const std::uint32_t cell : least) is_inside_[cell] = true;
+    pieces.unite(entry.second, other_piece);
   }
 }
 
