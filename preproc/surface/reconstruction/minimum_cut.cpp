@@ -11,6 +11,7 @@
 #include <boost/range/iterator_range.hpp>
 #include <cmath>
 #include <map>
+#include <set>
 #include <unordered_map>
 
 namespace scan2fea {
@@ -31,6 +32,21 @@ struct Hash {
 
 bool is_infinite(const DelaunayCells& cells, std::uint32_t cell) {
   return std::ranges::find(cells.corners[cell], DelaunayCells::infinite) != cells.corners[cell].end();
+}
+
+// The pieces, joined across edges, that have a vertex: two where they meet in it.
+std::vector<std::set<std::uint32_t>> pieces_of_vertices(const std::vector<Triangle>& triangles, std::size_t vertices) {
+  UnionFind pieces(triangles.size());
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> at_edge;
+  for (std::uint32_t f = 0; f < triangles.size(); ++f)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [entry, is_new] = at_edge.try_emplace(std::minmax({triangles[f][k], triangles[f][(k + 1) % 3]}), f);
+      if (!is_new) pieces.unite(f, entry->second);
+    }
+  std::vector<std::set<std::uint32_t>> of_vertex(vertices);
+  for (std::uint32_t f = 0; f < triangles.size(); ++f)
+    for (const std::uint32_t v : triangles[f]) of_vertex[v].insert(pieces.find(f));
+  return of_vertex;
 }
 
 struct Edge {
@@ -228,17 +244,14 @@ void Cut::join_at_edges() {
 
 void Cut::find_gaps(const std::vector<const WoundSurface*>& surfaces, const std::vector<Triangle>& parted,
                     double longest) {
-  const Components pieces = find_components({points_, parted});
-  std::vector<bool> used(points_.size(), false);
-  for (const Triangle& t : parted)
-    for (const std::uint32_t v : t) used[v] = true;
+  const std::vector<std::set<std::uint32_t>> pieces = pieces_of_vertices(parted, points_.size());
   std::vector<Components> fronts;
   for (const WoundSurface* surface : surfaces) fronts.push_back(find_components({points_, surface->triangles}));
   const auto is_near = [&](std::uint32_t a, std::uint32_t b) {
     return (points_[a] - points_[b]).norm() < longest * std::max(spacing_[a], spacing_[b]);
   };
   const auto belong_together = [&](std::uint32_t a, std::uint32_t b) {
-    return used[a] && used[b] && pieces.of_vertex[a] != pieces.of_vertex[b] &&
+    return !pieces[a].empty() && !pieces[b].empty() && (pieces[a] != pieces[b] || pieces[a].size() > 1) &&
            std::ranges::any_of(fronts, [&](const Components& f) { return f.of_vertex[a] == f.of_vertex[b]; });
   };
   is_gap_.assign(cells_.corners.size(), false);
