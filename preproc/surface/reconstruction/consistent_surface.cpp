@@ -97,15 +97,20 @@ class Search {
     candidates_.push_back(std::move(candidate));
   }
 
+  // By what its own fronts have in one, and by what any has.
   void join_best() {
-    const auto best = std::ranges::min_element(candidates_, {}, &Candidate::faults);
-    if (best->surface.bodies == 1) return;
+    const Candidate best = *std::ranges::min_element(candidates_, {}, &Candidate::faults);
+    if (best.surface.bodies == 1) return;
     constexpr double longest = 2;  // spacings: wider gaps are no accident of a front
-    Candidate joined{.surface = {}, .name = best->name + " with its pieces joined", .fronts = best->fronts};
-    joined.surface.triangles = join_pieces(points_, spacing_, cells_, best->fronts, best->surface.triangles, longest);
-    if (joined.surface.triangles.empty()) return;
-    measure(joined.surface);
-    candidates_.push_back(std::move(joined));
+    std::vector<const WoundSurface*> all;
+    for (const WoundSurface& front : fronts_) all.push_back(&front);
+    for (const auto& fronts : {best.fronts, all}) {
+      Candidate joined{.surface = {}, .name = best.name + " with its pieces joined", .fronts = fronts};
+      joined.surface.triangles = join_pieces(points_, spacing_, cells_, fronts, best.surface.triangles, longest);
+      if (joined.surface.triangles.empty()) continue;
+      measure(joined.surface);
+      candidates_.push_back(std::move(joined));
+    }
   }
 
   void measure(ConsistentSurface& surface) const {
