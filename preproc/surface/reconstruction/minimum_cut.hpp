@@ -20,10 +20,10 @@ WoundSurface wind(const std::vector<Vec3>& points, const DelaunayCells& cells, s
 // have costs nothing; any other costs its area, as much of it as lacks in votes, and more where it is long for the
 // `spacing` at its corners; a voted one that is left out costs its area, too, and a tetrahedron on the wrong side as
 // much as one of its triangles. What all that costs is the least there is. Then once more with what the surfaces have
-// of this cut, all of it outwards now. Sources of the idea: Labatut, Pons, Keriven, "Robust and efficient surface
-// reconstruction from range data", 2009; winding_number.hpp; the maximum flow is of Boykov and Kolmogorov, 2004, from
-// Boost. Empty where nothing is inside. About 10 us a tetrahedron; parallel in part, the same for any number of
-// threads.
+// of this cut, all of it outwards now; pieces that meet in an edge alone are made one there. Sources of the idea:
+// Labatut, Pons, Keriven, "Robust and efficient surface reconstruction from range data", 2009; winding_number.hpp; the
+// maximum flow is of Boykov and Kolmogorov, 2004, from Boost. Empty where nothing is inside. About 10 us a tetrahedron;
+// parallel in part, the same for any number of threads.
 std::vector<Triangle> cut_surface(const std::vector<Vec3>& points, const std::vector<double>& spacing,
                                   const DelaunayCells& cells, const std::vector<const WoundSurface*>& surfaces);
 
