@@ -1,0 +1,29 @@
+// First shapes for a small patch of points with normals, in closed form, to start fits from.
+#pragma once
+
+#include "preproc/surface/primitives/shape.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace scan2fea {
+
+struct OrientedPoints {
+  const std::vector<Vec3>& points;
+  const std::vector<Vec3>& normals;  // unit, outwards
+};
+
+struct ShapeGuess {
+  Shape shape;
+  bool known_direction = false;  // its axis is one of those given
+};
+
+// The plane through the patch, the sphere whose radii its normals are, and about each likely direction of an axis a
+// cylinder, a cone and a torus. Likely are `directions` (unit), and those in which the patch's normals change least, or
+// about which the centres of its curvature lie. Guesses that normals refuse (all alike, no axis that they meet) are
+// left out. O(directions * patch).
+std::vector<ShapeGuess> guess_shapes(const OrientedPoints& cloud, std::span<const std::uint32_t> patch,
+                                     std::span<const Vec3> directions);
+
+}  // namespace scan2fea
