@@ -74,11 +74,11 @@ PrimitiveUse use_of(const Shape& shape, double turn_deg) {
   }
 }
 
-void describe(const std::vector<Vec3>& points, GrownShapes&& grown, Primitives& found) {
+void describe(const OrientedPoints& cloud, GrownShapes&& grown, Primitives& found) {
   for (const GrownShape& shape : grown.shapes) {
-    const Reach reach = reach_of(shape.shape, points, shape.points);
-    Primitive primitive{.shape = shape.shape, .use = use_of(shape.shape, reach.turn_deg), .points = shape.points.size(), .fit = shape.rms,
-         .extent = reach.extent, .turn_deg = reach.turn_deg, .degrees_of_freedom = shape.freedom.count()};
+    const Reach reach = reach_of(shape.shape, cloud.points, shape.points);
+    Primitive primitive{.shape = shape.shape, .use = use_of(shape.shape, reach.turn_deg), .points = shape.points.size(), .fit = rms_distance(cloud, shape.shape, shape.points),
+         .extent = reach.extent, .turn_deg = reach.turn_deg, .degrees_of_freedom = static_cast<int>(shape.freedom.size())};
     primitive.parallel_to = primitive.coaxial_to = primitive.same_radius_as = found.list.size();
     found.list.push_back(primitive);
   }
@@ -113,7 +113,7 @@ Primitives find_primitives(const std::vector<Vec3>& points, const Neighbours& ne
   found.points_per_freedom = freedom > 0 ? static_cast<double>(described) / freedom : 0;
   if (2 * described >= points.size() && found.points_per_freedom >= options.points_per_freedom) {
     found.kind = ScanKind::part;
-    describe(points, std::move(grown), found);
+    describe(cloud, std::move(grown), found);
   } else {
     found.labels.assign(points.size(), no_primitive);
   }

@@ -15,13 +15,15 @@ using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 8, 1>;
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 8, 8>;
 
 void move(Shape& shape, const ShapeFreedom& freedom, const Vector& step) {
-  Eigen::Index i = 0;
-  for (const Vec3& direction : freedom.shift) shape.origin += step[i++] * direction;
   Vec3 axis = shape.axis;
-  for (const Vec3& direction : freedom.tilt) axis += step[i++] * direction;
+  for (Eigen::Index i = 0; i < step.size(); ++i) {
+    const ShapeChange& change = freedom[static_cast<std::size_t>(i)];
+    shape.origin += step[i] * change.shift;
+    axis += step[i] * change.tilt;
+    shape.radius += step[i] * change.radius;
+    (shape.kind == ShapeKind::cone ? shape.half_angle : shape.tube_radius) += step[i] * change.second;
+  }
   shape.axis = axis.normalized();
-  if (freedom.radius) shape.radius += step[i++];
-  if (freedom.second) (shape.kind == ShapeKind::cone ? shape.half_angle : shape.tube_radius) += step[i];
 }
 
 bool sensible(const Shape& shape) {
@@ -44,11 +46,15 @@ double scale_of(std::vector<double>& absolute, double least_sigma) {
   return std::max(median_sigma * *middle, least_sigma);
 }
 
+Eigen::Index size_of(const ShapeFreedom& freedom) {
+  return static_cast<Eigen::Index>(freedom.size());
+}
+
 // One step's normal equations.
 struct Equations {
   Equations(const Shape& shape, const ShapeFreedom& freedom, const std::vector<Vec3>& points,
             std::span<const std::uint32_t> which, double least_sigma)
-      : matrix(Matrix::Zero(freedom.count(), freedom.count())), right(Vector::Zero(freedom.count())) {
+      : matrix(Matrix::Zero(size_of(freedom), size_of(freedom))), right(Vector::Zero(size_of(freedom))) {
     std::vector<ShapeDerivatives> rows;
     std::vector<double> absolute;
     rows.reserve(which.size());
@@ -58,18 +64,17 @@ struct Equations {
       absolute.push_back(std::abs(rows.back().distance));
     }
     const double limit = tukey * scale_of(absolute, least_sigma);
-    Vector row(freedom.count());
+    Vector row(size_of(freedom));
     double weights = 0, squares = 0;
     for (const ShapeDerivatives& d : rows) {
       const double t = d.distance / limit;
       fit.squared_sum += std::min(d.distance * d.distance, limit * limit);
       if (std::abs(t) >= 1) continue;
       const double weight = (1 - t * t) * (1 - t * t);
-      Eigen::Index i = 0;
-      for (const Vec3& direction : freedom.shift) row[i++] = d.shift.dot(direction);
-      for (const Vec3& direction : freedom.tilt) row[i++] = d.tilt.dot(direction);
-      if (freedom.radius) row[i++] = d.radius;
-      if (freedom.second) row[i] = d.second;
+      for (Eigen::Index i = 0; i < row.size(); ++i) {
+        const ShapeChange& change = freedom[static_cast<std::size_t>(i)];
+        row[i] = d.shift.dot(change.shift) + d.tilt.dot(change.tilt) + d.radius * change.radius + d.second * change.second;
+      }
       matrix += weight * row * row.transpose();
       right -= weight * d.distance * row;
       weights += weight;
@@ -88,9 +93,9 @@ struct Equations {
 ShapeFreedom freedom_on_axis(const Shape& shape) {
   ShapeFreedom freedom;
   if (shape.kind == ShapeKind::plane || shape.kind == ShapeKind::torus || shape.kind == ShapeKind::sphere)
-    freedom.shift.push_back(shape.axis);
-  freedom.radius = shape.kind != ShapeKind::plane;
-  freedom.second = shape.kind == ShapeKind::cone || shape.kind == ShapeKind::torus;
+    freedom.push_back({.shift = shape.axis});
+  if (shape.kind != ShapeKind::plane) freedom.push_back({.radius = 1});
+  if (shape.kind == ShapeKind::cone || shape.kind == ShapeKind::torus) freedom.push_back({.second = 1});
   return freedom;
 }
 
@@ -98,7 +103,8 @@ ShapeFreedom freedom_on_direction(const Shape& shape) {
   ShapeFreedom freedom = freedom_on_axis(shape);
   if (shape.kind == ShapeKind::plane) return freedom;
   const Vec3 x = shape.axis.unitOrthogonal();
-  freedom.shift.insert(freedom.shift.end(), {x, shape.axis.cross(x)});
+  freedom.push_back({.shift = x});
+  freedom.push_back({.shift = shape.axis.cross(x)});
   return freedom;
 }
 
@@ -106,7 +112,8 @@ ShapeFreedom full_freedom(const Shape& shape) {
   ShapeFreedom freedom = freedom_on_direction(shape);
   if (shape.kind == ShapeKind::sphere) return freedom;
   const Vec3 x = shape.axis.unitOrthogonal();
-  freedom.tilt = {x, shape.axis.cross(x)};
+  freedom.push_back({.tilt = x});
+  freedom.push_back({.tilt = shape.axis.cross(x)});
   return freedom;
 }
 
@@ -133,10 +140,10 @@ ShapeFit fit_shape(Shape& shape, const ShapeFreedom& freedom, const std::vector<
   ShapeFit fit;
   for (int step = 0; step < most_steps; ++step) {
     // A tilted axis has other normal directions.
-    for (Vec3& u : here.tilt) u = (u - u.dot(trial.axis) * trial.axis).normalized();
+    for (ShapeChange& change : here) change.tilt -= change.tilt.dot(trial.axis) * trial.axis;
     Equations equations(trial, here, points, which, least_sigma);
     fit = equations.fit;
-    if (here.count() == 0) break;
+    if (here.empty()) break;
     // Where points leave a number open it stays: what is added is far below any weight that they have.
     equations.matrix.diagonal() *= 1 + 1e-9;
     equations.matrix.diagonal().array() += 1e-12 * equations.matrix.trace() + 1e-300;

@@ -9,15 +9,16 @@
 
 namespace scan2fea {
 
-// What a fit may change. Directions are unit vectors, independent of one another.
-struct ShapeFreedom {
-  std::vector<Vec3> shift;  // of the origin
-  std::vector<Vec3> tilt;   // of the axis; normal to it
-  bool radius = false;
-  bool second = false;  // the tube's radius, the half angle
-
-  int count() const { return static_cast<int>(shift.size() + tilt.size()) + radius + second; }
+// One way in which a shape may change, per unit of an unknown of the fit.
+struct ShapeChange {
+  Vec3 shift = Vec3::Zero();  // of the origin
+  Vec3 tilt = Vec3::Zero();   // of the axis; normal to it
+  double radius = 0;
+  double second = 0;  // of the tube's radius, the half angle
 };
+
+// What a fit may change: independent of one another.
+using ShapeFreedom = std::vector<ShapeChange>;
 
 // All that the kind has.
 ShapeFreedom full_freedom(const Shape& shape);

@@ -1,8 +1,7 @@
 #include "preproc/surface/primitives/grow_shapes.hpp"
 
+#include "preproc/surface/primitives/blend.hpp"
 #include "preproc/surface/primitives/point_normals.hpp"
-
-#include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <array>
@@ -16,36 +15,30 @@
 namespace scan2fea {
 namespace {
 
-// Squared sigmas; 4 sigmas are noise, more is another surface.
-constexpr double unexplained = 16;
+constexpr double unexplained = 20;  // of a point without a shape: more than one that its shape just holds
 // Of a degree of freedom, in the same measure. A point that is described saves 10 at most, so that a plane needs 7
 // points, a cylinder 11, one along a known direction 7.
 constexpr double freedom_cost = 20;
-// Residuals of a shape that is the surface's are noise, and know nothing of their neighbours'.
-constexpr double most_autocorrelation = 0.5;
 constexpr std::size_t patch_size = 20;
 // The first planes must be none of the strips that a rounding has room for: ten points a degree of freedom.
 constexpr std::size_t least_first_plane = 30;
 
 using Index = std::uint32_t;
 
-// Near a sharp edge normals are of neither side, so that the distance decides; beyond a right angle it is the other side
-// of a wall.
-double cost_of(const OrientedPoints& cloud, const ShapeNoise& noise, const Shape& shape, Index i) {
-  constexpr double most_for_normal = 9;
-  const double d = shape.signed_distance(cloud.points[i]) / noise.sigma;
-  if (d * d >= unexplained) return d * d;
-  const Vec3 normal = shape.normal(cloud.points[i]);
-  if (normal.dot(cloud.normals[i]) < 0) return 2 * unexplained;
-  const double turn = (normal - cloud.normals[i]).squaredNorm() / (noise.sigma_angle * noise.sigma_angle);
-  return d * d + std::min(most_for_normal, turn);
+// Of a shape that may change so; with what a rarer kind costs beside a plane or cylinder, in degrees of freedom. A piece
+// of torus or cone can follow nearly any few points.
+double description_cost(ShapeKind kind, const ShapeFreedom& freedom) {
+  const double rarity = kind == ShapeKind::torus ? 3 : kind == ShapeKind::cone ? 2 : kind == ShapeKind::sphere ? 1 : 0;
+  return freedom_cost * (static_cast<double>(freedom.size()) + rarity);
 }
 
-// While shapes grow, costs that noise explains count alike: else each shape would lose the farther half of its noise to
-// another one beside it.
-double growing_cost(const OrientedPoints& cloud, const ShapeNoise& noise, const Shape& shape, Index i) {
-  constexpr double noise_alone = 6;  // exceeded by 5 % of squared distances and turns together
-  return std::clamp(cost_of(cloud, noise, shape, i), noise_alone, unexplained);
+ShapeFreedom freedom_of(const ShapeGuess& guess) {
+  if (guess.on_known_axis) return freedom_on_axis(guess.shape);
+  return guess.on_known_direction ? freedom_on_direction(guess.shape) : full_freedom(guess.shape);
+}
+
+bool is_full(const GrownShape& grown) {
+  return grown.freedom.size() == static_cast<std::size_t>(degrees_of_freedom(grown.shape.kind));
 }
 
 class Grower {
@@ -66,17 +59,25 @@ class Grower {
 
   GrownShapes run() {
     // Planes tell the directions in which axes run.
-    accept_best_first(candidates(true));
-    for (int round = 0; round < 4; ++round) {
+    accept_best_first(candidates(true), 0);
+    // Strong shapes first, then those that pay on their axes. Where strong ones describe less than a third, weak ones do
+    // not make a part of it.
+    bool any = true;
+    for (const double least_gain : {250.0, 100.0, 0.0, 0.0}) {
+      if (least_gain == 0 && (!any || 3 * described() < cloud_.points.size())) break;
       compete_for_points(cloud_, neighbours_, noise_, 1, grown_);
       recount_costs();
       look_at_the_rest();
-      if (!accept_best_first(candidates(false))) break;
+      any = accept_best_first(candidates(false), least_gain) || least_gain > 0;
     }
     return std::move(grown_);
   }
 
  private:
+  std::size_t described() const {
+    return grown_.labels.size() - static_cast<std::size_t>(std::count(grown_.labels.begin(), grown_.labels.end(), no_shape));
+  }
+
   // Neighbours and normals of the points without a shape, among themselves.
   void look_at_the_rest() {
     std::vector<bool> without(grown_.labels.size());
@@ -103,11 +104,11 @@ class Grower {
   void recount_costs() {
     std::fill(cost_.begin(), cost_.end(), unexplained);
     for (const GrownShape& grown : grown_.shapes)
-      for (const Index i : grown.points) cost_[i] = growing_cost(cloud_, noise_, grown.shape, i);
+      for (const Index i : grown.points) cost_[i] = cost_of(cloud_, noise_, grown.shape, i);
   }
 
-  // Of planes and axes, each once, those of most points first.
-  std::vector<Vec3> known_directions() const {
+  // Directions of planes and axes, each once, those of most points first; then the axes themselves.
+  std::vector<KnownAxis> known_axes() const {
     constexpr std::size_t most = 8;
     constexpr double same_cosine = 0.9976;  // 4 degrees
     std::vector<const GrownShape*> by_size;
@@ -115,14 +116,18 @@ class Grower {
       if (grown.shape.kind != ShapeKind::sphere) by_size.push_back(&grown);
     std::stable_sort(by_size.begin(), by_size.end(),
                      [](const auto* a, const auto* b) { return a->points.size() > b->points.size(); });
-    std::vector<Vec3> directions;
+    std::vector<KnownAxis> axes;
     for (const GrownShape* grown : by_size) {
       const Vec3& axis = grown->shape.axis;
-      const bool known = std::any_of(directions.begin(), directions.end(),
-                                     [&](const Vec3& d) { return std::abs(d.dot(axis)) > same_cosine; });
-      if (!known && directions.size() < most) directions.push_back(axis);
+      const bool known = std::any_of(axes.begin(), axes.end(), [&](const KnownAxis& other) {
+        return std::abs(other.direction.dot(axis)) > same_cosine;
+      });
+      if (!known && axes.size() < most) axes.push_back({axis, std::nullopt});
     }
-    return directions;
+    std::size_t lines = 0;
+    for (const GrownShape* grown : by_size)
+      if (grown->shape.kind != ShapeKind::plane && ++lines <= most) axes.push_back({grown->shape.axis, grown->shape.origin});
+    return axes;
   }
 
   std::vector<Index> patch_of(Index seed) const {
@@ -137,17 +142,28 @@ class Grower {
   std::vector<GrownShape> candidates(bool planes_only) {
     std::array<std::vector<bool>, 5> covered;
     covered.fill(std::vector<bool>(cloud_.points.size(), false));
-    const std::vector<Vec3> directions = known_directions();
+    const std::vector<KnownAxis> axes = known_axes();
+    std::vector<bool> blended(cloud_.points.size(), false);
     std::vector<GrownShape> found;
     std::size_t tried = 0;
     for (const Index seed : ordered_seeds()) {
       if (++tried % 256 == 0 && interrupt_) interrupt_();
       const std::vector<Index> patch = patch_of(seed);
-      for (const ShapeGuess& guess : best_guesses(patch, directions, planes_only)) {
+      if (!planes_only && !blended[seed])
+        if (auto blend = grown_blend(seed, patch)) {
+          for (const Index i : blend->points) blended[i] = true;
+          found.push_back(std::move(*blend));
+        }
+      for (const ShapeGuess& guess : best_guesses(patch, axes, planes_only)) {
         const auto kind = static_cast<std::size_t>(guess.shape.kind);
         if (covered[kind][seed]) continue;
-        GrownShape grown{guess.shape, guess.known_direction ? freedom_on_direction(guess.shape) : full_freedom(guess.shape), patch};
-        if (!grow(grown) || !(grown.gain > 0)) continue;
+        GrownShape grown{.shape = guess.shape, .freedom = freedom_of(guess), .points = patch, .gain = 0, .blend_of = {}};
+        if (!grow(grown)) {
+          // What has spread far in vain would do so again from beside.
+          if (grown.points.size() > 3 * patch_size)
+            for (const Index i : patch) covered[kind][i] = true;
+          continue;
+        }
         if (planes_only && grown.points.size() < least_first_plane) continue;
         for (const Index i : grown.points) covered[kind][i] = true;
         found.push_back(std::move(grown));
@@ -156,14 +172,48 @@ class Grower {
     return found;
   }
 
+  // The shapes of many points that are met first around a seed.
+  std::vector<Index> sides_near(Index seed) const {
+    constexpr std::size_t most_sides = 3;
+    std::vector<Index> sides;
+    const auto meet = [&](Index i) {
+      const Index label = grown_.labels[i];
+      if (label == no_shape || sides.size() == most_sides || grown_.shapes[label].points.size() < least_first_plane) return;
+      if (std::find(sides.begin(), sides.end(), label) == sides.end()) sides.push_back(label);
+    };
+    for (const Index i : neighbours_.of(seed)) meet(i);
+    for (const Index i : neighbours_.of(seed))
+      for (const Index j : neighbours_.of(i)) meet(j);
+    return sides;
+  }
+
+  // The rounding between two of these that describes the patch best, grown.
+  std::optional<GrownShape> grown_blend(Index seed, const std::vector<Index>& patch) {
+    const std::vector<Index> sides = sides_near(seed);
+    std::optional<GrownShape> best;
+    for (std::size_t a = 0; a < sides.size(); ++a)
+      for (std::size_t b = a + 1; b < sides.size(); ++b)
+        for (const bool inner : {false, true}) {
+          const auto blend = Blend::between(grown_.shapes[sides[a]].shape, grown_.shapes[sides[b]].shape, inner,
+                                            cloud_.points[seed]);
+          if (!blend) continue;
+          const auto radius = blend->radius_through(cloud_.points[seed]);
+          if (!radius || blend->with_radius(*radius).normal(cloud_.points[seed]).dot(normals_[seed]) < 0.7) continue;
+          GrownShape grown{.shape = blend->with_radius(*radius), .freedom = blend->freedom(), .points = patch,
+                           .gain = 0, .blend_of = std::array{sides[a], sides[b]}};
+          if (grow(grown) && (!best || grown.gain > best->gain)) best = std::move(grown);
+        }
+    return best;
+  }
+
   // One of each kind: that which describes the patch best.
-  std::vector<ShapeGuess> best_guesses(const std::vector<Index>& patch, const std::vector<Vec3>& directions, bool planes_only) const {
+  std::vector<ShapeGuess> best_guesses(const std::vector<Index>& patch, const std::vector<KnownAxis>& axes, bool planes_only) const {
     std::array<std::optional<ShapeGuess>, 5> best;
     std::array<double, 5> least;
     least.fill(std::numeric_limits<double>::infinity());
-    for (ShapeGuess& guess : guess_shapes(cloud_, patch, directions)) {
+    for (ShapeGuess& guess : guess_shapes(cloud_, patch, axes)) {
       if (planes_only && guess.shape.kind != ShapeKind::plane) continue;
-      double cost = guess.known_direction ? 0 : 2 * freedom_cost;
+      double cost = description_cost(guess.shape.kind, freedom_of(guess));
       for (const Index i : patch) cost += std::min(10 * unexplained, cost_of(cloud_, noise_, guess.shape, i));
       const auto kind = static_cast<std::size_t>(guess.shape.kind);
       if (!(cost < least[kind])) continue;
@@ -184,9 +234,12 @@ class Grower {
     for (int round = 0; round < most_rounds; ++round) {
       const ShapeFit fit = fit_shape(grown.shape, grown.freedom, cloud_.points, members, noise_.sigma);
       if (!fit.found) return false;
+      if (members.size() > patch_size && rms_distance(cloud_, grown.shape, members) > 2 * noise_.sigma) {
+        grown.points = std::move(members);
+        return false;
+      }
       // The axis has turned.
-      if (!grown.freedom.tilt.empty()) grown.freedom = full_freedom(grown.shape);
-      grown.rms = fit.rms;
+      if (is_full(grown)) grown.freedom = full_freedom(grown.shape);
       std::vector<Index> next = flooded(grown.shape, members, 3 * members.size());
       if (next.size() < 4) return false;
       const bool same = next == members;
@@ -203,7 +256,7 @@ class Grower {
     const auto visit = [&](Index i) {
       if (mark_[i] == round_) return;
       mark_[i] = round_;
-      if (growing_cost(cloud_, noise_, shape, i) < cost_[i]) region.push_back(i);
+      if (saving(shape, i) > 0) region.push_back(i);
     };
     for (const Index i : from) visit(i);
     for (std::size_t next = 0; next < region.size() && region.size() < most; ++next) {
@@ -214,66 +267,29 @@ class Grower {
     return region;
   }
 
+  // Of a point's cost, were the shape to describe it. Beside a shape that has it and runs the same way, costs that noise
+  // explains count alike: else each plane would lose the farther half of its noise to another one.
+  double saving(const Shape& shape, Index i) const {
+    constexpr double noise_alone = 10;      // exceeded by 1 % of squared distances and turns together
+    constexpr double same_way = 0.985;      // cosine of 10 degrees
+    const double cost = cost_of(cloud_, noise_, shape, i);
+    if (!(cost < most_cost)) return 0;
+    const Index label = grown_.labels[i];
+    if (label == no_shape) return unexplained - cost;
+    const Vec3& p = cloud_.points[i];
+    if (grown_.shapes[label].shape.normal(p).dot(shape.normal(p)) < same_way) return cost_[i] - cost;
+    return std::max(cost_[i], noise_alone) - std::max(cost, noise_alone);
+  }
+
   bool rate(GrownShape& grown) const {
-    double saved = 0, squares = 0;
-    for (const Index i : grown.points) {
-      saved += cost_[i] - growing_cost(cloud_, noise_, grown.shape, i);
-      const double d = grown.shape.signed_distance(cloud_.points[i]);
-      squares += d * d;
-    }
-    grown.rms = std::sqrt(squares / static_cast<double>(grown.points.size()));
-    grown.gain = saved - freedom_cost * grown.freedom.count();
-    // Far below the noise residuals are rounding.
-    if (grown.rms < 0.5 * noise_.sigma) return true;
-    return autocorrelation(grown) < most_autocorrelation && !is_bent(grown);
-  }
-
-  // Whether a quadric over the plane explains so much of the distances from it that it is a strip of a rounding: by the
-  // F-test, and a fifth of the squares, since among a thousand points a few of an adjoining rounding are significant.
-  bool is_bent(const GrownShape& grown) const {
-    constexpr double significant = 5, share_of_squares = 0.2;
-    const auto count = static_cast<double>(grown.points.size());
-    if (grown.shape.kind != ShapeKind::plane || count < 9) return false;
-    const Vec3 x = grown.shape.axis.unitOrthogonal(), y = grown.shape.axis.cross(x);
-    using Row = Eigen::Matrix<double, 6, 1>;
-    Eigen::Matrix<double, 6, 6> matrix = Eigen::Matrix<double, 6, 6>::Zero();
-    Row right = Row::Zero();
-    double squares = 0, size = 0;
-    for (const Index i : grown.points) size = std::max(size, (cloud_.points[i] - grown.shape.origin).norm());
-    for (const Index i : grown.points) {
-      const Vec3 d = (cloud_.points[i] - grown.shape.origin) / size;
-      const double u = d.dot(x), v = d.dot(y), r = grown.shape.signed_distance(cloud_.points[i]) / size;
-      const Row row(1, u, v, u * u, u * v, v * v);
-      matrix += row * row.transpose();
-      right += r * row;
-      squares += r * r;
-    }
-    const double explained = right.dot(matrix.ldlt().solve(right)) / squares;
-    return explained > share_of_squares && explained / 3 > significant * (1 - explained) / (count - 6);
-  }
-
-  double autocorrelation(const GrownShape& grown) const {
-    double mean = 0;
-    for (const Index i : grown.points) mean += grown.shape.signed_distance(cloud_.points[i]);
-    mean /= static_cast<double>(grown.points.size());
-    double products = 0, squares = 0;
-    std::size_t pairs = 0;
-    for (const Index i : grown.points) {
-      const double r = grown.shape.signed_distance(cloud_.points[i]) - mean;
-      squares += r * r;
-      const auto near = neighbours_.of(i);
-      for (const Index j : near.first(std::min<std::size_t>(6, near.size()))) {
-        if (!std::binary_search(grown.points.begin(), grown.points.end(), j)) continue;
-        products += r * (grown.shape.signed_distance(cloud_.points[j]) - mean);
-        ++pairs;
-      }
-    }
-    if (pairs == 0 || !(squares > 0)) return 0;
-    return products / static_cast<double>(pairs) / (squares / static_cast<double>(grown.points.size()));
+    double saved = 0;
+    for (const Index i : grown.points) saved += saving(grown.shape, i);
+    grown.gain = saved - description_cost(grown.shape.kind, grown.freedom);
+    return grown.gain > 0 && leaves_noise(cloud_, neighbours_, noise_, grown.shape, grown.points);
   }
 
   // The best candidate is grown again over what the better ones have left it, and taken if it still is the best.
-  bool accept_best_first(std::vector<GrownShape> waiting) {
+  bool accept_best_first(std::vector<GrownShape> waiting, double least_gain) {
     using Entry = std::pair<double, std::size_t>;
     const auto worse = [](const Entry& a, const Entry& b) {
       return a.first < b.first || (a.first == b.first && a.second > b.second);
@@ -285,7 +301,7 @@ class Grower {
       const auto [gain, i] = queue.top();
       queue.pop();
       GrownShape& grown = waiting[i];
-      if (!grow(grown) || !(grown.gain > 0)) continue;
+      if (!grow(grown) || grown.gain <= least_gain) continue;
       if (grown.gain < 0.95 * gain && !queue.empty() && grown.gain < queue.top().first) {
         queue.emplace(grown.gain, i);
         continue;
@@ -301,7 +317,7 @@ class Grower {
     for (const Index i : grown.points) {
       if (const Index old = grown_.labels[i]; old != no_shape) std::erase(grown_.shapes[old].points, i);
       grown_.labels[i] = label;
-      cost_[i] = growing_cost(cloud_, noise_, grown.shape, i);
+      cost_[i] = cost_of(cloud_, noise_, grown.shape, i);
     }
     grown_.shapes.push_back(std::move(grown));
   }
@@ -324,7 +340,7 @@ void relabel(const OrientedPoints& cloud, const Neighbours& neighbours, const Sh
   std::vector<Index> tried;
   for (Index i = 0; i < labels.size(); ++i) {
     tried.clear();
-    double least = unexplained;
+    double least = most_cost;
     const auto try_shape = [&](Index label) {
       if (label == no_shape || std::find(tried.begin(), tried.end(), label) != tried.end()) return;
       tried.push_back(label);
@@ -343,26 +359,42 @@ void relabel(const OrientedPoints& cloud, const Neighbours& neighbours, const Sh
     if (grown.labels[i] != no_shape) grown.shapes[grown.labels[i]].points.push_back(i);
 }
 
+// Roundings follow what they are tangent to.
+void follow_sides(GrownShapes& grown) {
+  for (GrownShape& shape : grown.shapes) {
+    if (!shape.blend_of) continue;
+    const auto blend = Blend::between(grown.shapes[(*shape.blend_of)[0]].shape, grown.shapes[(*shape.blend_of)[1]].shape,
+                                      shape.shape.hollow, shape.shape.origin);
+    if (!blend) continue;
+    shape.shape = blend->with_radius(blend_radius(shape.shape));
+    shape.freedom = blend->freedom();
+  }
+}
+
 // Shapes whose points save less than the shape costs.
-void drop_unpaid(const OrientedPoints& cloud, const ShapeNoise& noise, GrownShapes& grown) {
+void drop_unpaid(const OrientedPoints& cloud, const Neighbours& neighbours, const ShapeNoise& noise,
+                 GrownShapes& grown) {
   std::vector<Index> renamed(grown.shapes.size(), no_shape);
   std::vector<GrownShape> kept;
   for (std::size_t s = 0; s < grown.shapes.size(); ++s) {
     GrownShape& shape = grown.shapes[s];
-    double saved = 0, squares = 0;
-    for (const Index i : shape.points) {
-      saved += unexplained - cost_of(cloud, noise, shape.shape, i);
-      const double d = shape.shape.signed_distance(cloud.points[i]);
-      squares += d * d;
-    }
-    shape.gain = saved - freedom_cost * shape.freedom.count();
-    if (!(shape.gain > 0)) continue;
-    shape.rms = std::sqrt(squares / static_cast<double>(shape.points.size()));
+    double saved = 0;
+    for (const Index i : shape.points) saved += unexplained - cost_of(cloud, noise, shape.shape, i);
+    shape.gain = saved - description_cost(shape.shape.kind, shape.freedom);
+    if (!(shape.gain > 0) || !leaves_noise(cloud, neighbours, noise, shape.shape, shape.points)) continue;
     renamed[s] = static_cast<Index>(kept.size());
     kept.push_back(std::move(shape));
   }
   for (Index& label : grown.labels)
     if (label != no_shape) label = renamed[label];
+  for (GrownShape& shape : kept) {
+    if (!shape.blend_of) continue;
+    for (Index& side : *shape.blend_of) side = renamed[side];
+    if ((*shape.blend_of)[0] == no_shape || (*shape.blend_of)[1] == no_shape) {
+      shape.blend_of.reset();  // what it was tangent to is gone
+      shape.freedom = freedom_on_direction(shape.shape);
+    }
+  }
   grown.shapes = std::move(kept);
 }
 
@@ -378,12 +410,13 @@ void compete_for_points(const OrientedPoints& cloud, const Neighbours& neighbour
                         GrownShapes& grown) {
   for (int round = 0; round < rounds; ++round) {
     relabel(cloud, neighbours, noise, grown);
-    drop_unpaid(cloud, noise, grown);
+    drop_unpaid(cloud, neighbours, noise, grown);
+    follow_sides(grown);
     for (GrownShape& shape : grown.shapes) {
       Shape fitted = shape.shape;
       if (!fit_shape(fitted, shape.freedom, cloud.points, shape.points, noise.sigma).found) continue;
       shape.shape = fitted;
-      if (shape.freedom.tilt.size() == 2) shape.freedom = full_freedom(fitted);
+      if (is_full(shape)) shape.freedom = full_freedom(fitted);
     }
   }
 }

@@ -1,31 +1,28 @@
 // Shapes grown over points, and which of them describes which point.
 // A point costs the squares of its distance from its shape and of its normal's turn, each over what noise explains; one
-// without a shape costs `unexplained`; a shape costs its degrees of freedom. What is looked for are the shapes that
+// without a shape costs more than any that has one; a shape costs its degrees of freedom. What is looked for are the shapes that
 // make the sum smallest (a description length), greedily, the best first.
 #pragma once
 
 #include "preproc/surface/primitives/fit_shape.hpp"
 #include "preproc/surface/primitives/neighbours.hpp"
-#include "preproc/surface/primitives/shape_guess.hpp"
+#include "preproc/surface/primitives/shape_rating.hpp"
 
+#include <array>
 #include <cstdint>
 #include <functional>
-#include <span>
+#include <optional>
 #include <vector>
 
 namespace scan2fea {
-
-struct ShapeNoise {
-  double sigma = 0;        // of distances, model units, > 0
-  double sigma_angle = 0;  // of normals, radians, > 0
-};
 
 struct GrownShape {
   Shape shape;
   ShapeFreedom freedom;                // what may still change; less than the kind has where relations hold it
   std::vector<std::uint32_t> points;  // that it describes, ascending
-  double rms = 0;                      // of their distances
   double gain = 0;                     // of description length
+  // What it is tangent to, in the list of shapes; the shape then follows from these and its radius.
+  std::optional<std::array<std::uint32_t, 2>> blend_of;
 };
 
 inline constexpr std::uint32_t no_shape = ~std::uint32_t{0};

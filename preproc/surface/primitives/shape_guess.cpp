@@ -94,9 +94,11 @@ class Patch {
     return shape;
   }
 
-  void add_about(const Vec3& direction, bool known, std::vector<ShapeGuess>& guesses) const {
-    const std::optional<Vec3> origin = met_by_normals(direction);
+  void add_about(const KnownAxis& axis, bool known, std::vector<ShapeGuess>& guesses) const {
+    const Vec3& direction = axis.direction;
+    const std::optional<Vec3> origin = axis.origin ? axis.origin : met_by_normals(direction);
     if (!origin) return;
+    const auto add = [&](const Shape& found) { guesses.push_back({found, known, axis.origin.has_value()}); };
     Vector2d place = Vector2d::Zero(), normal = Vector2d::Zero();  // distance from the axis, height along it
     std::vector<Vector2d> places, slopes;
     for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -115,7 +117,7 @@ class Patch {
     Shape shape{.kind = ShapeKind::cylinder, .origin = *origin, .axis = direction};
     shape.hollow = normal[0] < 0;
     shape.radius = place[0];
-    guesses.push_back({shape, known});
+    add(shape);
 
     const double angle = shape.hollow ? std::atan2(normal[1], -normal[0]) : std::atan2(-normal[1], normal[0]);
     // Between a cylinder and a plane lie the cones of 3 to 87 degrees.
@@ -124,7 +126,7 @@ class Patch {
       cone.kind = ShapeKind::cone;
       cone.half_angle = angle;
       cone.radius = place[0] - place[1] * std::tan(angle);
-      guesses.push_back({cone, known});
+      add(cone);
     }
     double up = 0, down = 0;
     for (std::size_t i = 0; i < places.size(); ++i) {
@@ -139,7 +141,7 @@ class Patch {
     shape.radius = centre[0];
     shape.tube_radius = std::abs(up / down);
     shape.hollow = up < 0;
-    guesses.push_back({shape, known});
+    add(shape);
   }
 
  private:
@@ -204,17 +206,18 @@ class Patch {
 }  // namespace
 
 std::vector<ShapeGuess> guess_shapes(const OrientedPoints& cloud, std::span<const std::uint32_t> patch,
-                                     std::span<const Vec3> directions) {
+                                     std::span<const KnownAxis> axes) {
   std::vector<ShapeGuess> guesses;
   if (patch.size() < 4) return guesses;
   const Patch view(cloud, patch);
-  guesses.push_back({view.plane(), false});
-  if (const auto sphere = view.sphere()) guesses.push_back({*sphere, false});
-  for (const Vec3& direction : directions) {
-    if (const auto cylinder = view.cylinder_along(direction)) guesses.push_back({*cylinder, true});
-    view.add_about(direction, true, guesses);
+  guesses.push_back({view.plane()});
+  if (const auto sphere = view.sphere()) guesses.push_back({*sphere});
+  for (const KnownAxis& axis : axes) {
+    if (!axis.origin)
+      if (const auto cylinder = view.cylinder_along(axis.direction)) guesses.push_back({*cylinder, true});
+    view.add_about(axis, true, guesses);
   }
-  for (const Vec3& direction : view.likely_directions()) view.add_about(direction, false, guesses);
+  for (const Vec3& direction : view.likely_directions()) view.add_about({direction, std::nullopt}, false, guesses);
   return guesses;
 }
 
