@@ -4,6 +4,7 @@
 #include "preproc/surface/kernel/adjacency.hpp"
 #include "preproc/surface/primitives/grow_shapes.hpp"
 #include "preproc/surface/primitives/point_normals.hpp"
+#include "preproc/surface/primitives/shape_relations.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -74,12 +75,12 @@ PrimitiveUse use_of(const Shape& shape, double turn_deg) {
   }
 }
 
-void describe(const OrientedPoints& cloud, GrownShapes&& grown, Primitives& found) {
-  for (const GrownShape& shape : grown.shapes) {
+void describe(const OrientedPoints& cloud, ShapeSet&& grown, Primitives& found) {
+  for (const FoundShape& shape : grown.shapes) {
     const Reach reach = reach_of(shape.shape, cloud.points, shape.points);
     Primitive primitive{.shape = shape.shape, .use = use_of(shape.shape, reach.turn_deg), .points = shape.points.size(), .fit = rms_distance(cloud, shape.shape, shape.points),
          .extent = reach.extent, .turn_deg = reach.turn_deg, .degrees_of_freedom = static_cast<int>(shape.freedom.size())};
-    primitive.parallel_to = primitive.coaxial_to = primitive.same_radius_as = found.list.size();
+    primitive.relations = shape.relations;
     found.list.push_back(primitive);
   }
   found.labels = std::move(grown.labels);
@@ -100,13 +101,18 @@ Primitives find_primitives(const std::vector<Vec3>& points, const Neighbours& ne
   found.noise = normals.noise;
   found.sigma = noise.sigma;
   found.spacing = normals.spacing;
-  GrownShapes grown = grow_shapes(points, neighbours, outwards, noise, normals.normals,
+  ShapeSet grown = grow_shapes(points, neighbours, outwards, noise, normals.normals,
                                   [&] { progress("primitives", 0.5); });
   const OrientedPoints cloud{points, normals.normals};
-  compete_for_points(cloud, neighbours, noise, 3, grown);
+  // Relations let fewer points decide a shape, and shapes that are surer win points back; then both once more.
+  for (int round = 0; round < 2; ++round) {
+    compete_for_points(cloud, neighbours, noise, 2, grown);
+    impose_relations(cloud, neighbours, noise, grown);
+  }
+  relabel_points(cloud, neighbours, noise, grown);
   std::size_t described = 0;
   int freedom = 0;
-  for (const GrownShape& shape : grown.shapes) {
+  for (const FoundShape& shape : grown.shapes) {
     described += shape.points.size();
     freedom += degrees_of_freedom(shape.shape.kind);
   }

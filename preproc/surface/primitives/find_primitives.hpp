@@ -10,7 +10,7 @@
 
 #include "preproc/mesh/progress.hpp"
 #include "preproc/surface/primitives/neighbours.hpp"
-#include "preproc/surface/primitives/shape.hpp"
+#include "preproc/surface/primitives/shape_set.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -37,8 +37,7 @@ struct Primitive {
   double extent = 0;           // of its points along the axis (of a plane: across), model units
   double turn_deg = 0;         // that its points cover about the axis; 360 all around; 0 for planes and spheres
   int degrees_of_freedom = 0;  // numbers that the points alone decide, relations aside
-  // Places in the list of primitives; itself where there is none before it. Only what was imposed is told.
-  std::size_t parallel_to = 0, coaxial_to = 0, same_radius_as = 0;
+  ShapeRelations relations;    // that were imposed, to others in the list
 };
 
 enum class ScanKind {

@@ -15,30 +15,15 @@
 namespace scan2fea {
 namespace {
 
-constexpr double unexplained = 20;  // of a point without a shape: more than one that its shape just holds
-// Of a degree of freedom, in the same measure. A point that is described saves 10 at most, so that a plane needs 7
-// points, a cylinder 11, one along a known direction 7.
-constexpr double freedom_cost = 20;
 constexpr std::size_t patch_size = 20;
 // The first planes must be none of the strips that a rounding has room for: ten points a degree of freedom.
 constexpr std::size_t least_first_plane = 30;
 
 using Index = std::uint32_t;
 
-// Of a shape that may change so; with what a rarer kind costs beside a plane or cylinder, in degrees of freedom. A piece
-// of torus or cone can follow nearly any few points.
-double description_cost(ShapeKind kind, const ShapeFreedom& freedom) {
-  const double rarity = kind == ShapeKind::torus ? 3 : kind == ShapeKind::cone ? 2 : kind == ShapeKind::sphere ? 1 : 0;
-  return freedom_cost * (static_cast<double>(freedom.size()) + rarity);
-}
-
 ShapeFreedom freedom_of(const ShapeGuess& guess) {
   if (guess.on_known_axis) return freedom_on_axis(guess.shape);
   return guess.on_known_direction ? freedom_on_direction(guess.shape) : full_freedom(guess.shape);
-}
-
-bool is_full(const GrownShape& grown) {
-  return grown.freedom.size() == static_cast<std::size_t>(degrees_of_freedom(grown.shape.kind));
 }
 
 class Grower {
@@ -52,12 +37,12 @@ class Grower {
         outwards_(outwards),
         noise_(noise),
         interrupt_(interrupt),
-        cost_(points.size(), unexplained),
+        cost_(points.size(), cost_without_shape),
         mark_(points.size(), 0) {
     grown_.labels.assign(points.size(), no_shape);
   }
 
-  GrownShapes run() {
+  ShapeSet run() {
     // Planes tell the directions in which axes run.
     accept_best_first(candidates(true), 0);
     // Strong shapes first, then those that pay on their axes. Where strong ones describe less than a third, weak ones do
@@ -102,8 +87,8 @@ class Grower {
   }
 
   void recount_costs() {
-    std::fill(cost_.begin(), cost_.end(), unexplained);
-    for (const GrownShape& grown : grown_.shapes)
+    std::fill(cost_.begin(), cost_.end(), cost_without_shape);
+    for (const FoundShape& grown : grown_.shapes)
       for (const Index i : grown.points) cost_[i] = cost_of(cloud_, noise_, grown.shape, i);
   }
 
@@ -111,13 +96,13 @@ class Grower {
   std::vector<KnownAxis> known_axes() const {
     constexpr std::size_t most = 8;
     constexpr double same_cosine = 0.9976;  // 4 degrees
-    std::vector<const GrownShape*> by_size;
-    for (const GrownShape& grown : grown_.shapes)
+    std::vector<const FoundShape*> by_size;
+    for (const FoundShape& grown : grown_.shapes)
       if (grown.shape.kind != ShapeKind::sphere) by_size.push_back(&grown);
     std::stable_sort(by_size.begin(), by_size.end(),
                      [](const auto* a, const auto* b) { return a->points.size() > b->points.size(); });
     std::vector<KnownAxis> axes;
-    for (const GrownShape* grown : by_size) {
+    for (const FoundShape* grown : by_size) {
       const Vec3& axis = grown->shape.axis;
       const bool known = std::any_of(axes.begin(), axes.end(), [&](const KnownAxis& other) {
         return std::abs(other.direction.dot(axis)) > same_cosine;
@@ -125,7 +110,7 @@ class Grower {
       if (!known && axes.size() < most) axes.push_back({axis, std::nullopt});
     }
     std::size_t lines = 0;
-    for (const GrownShape* grown : by_size)
+    for (const FoundShape* grown : by_size)
       if (grown->shape.kind != ShapeKind::plane && ++lines <= most) axes.push_back({grown->shape.axis, grown->shape.origin});
     return axes;
   }
@@ -139,12 +124,12 @@ class Grower {
     return patch;
   }
 
-  std::vector<GrownShape> candidates(bool planes_only) {
+  std::vector<FoundShape> candidates(bool planes_only) {
     std::array<std::vector<bool>, 5> covered;
     covered.fill(std::vector<bool>(cloud_.points.size(), false));
     const std::vector<KnownAxis> axes = known_axes();
     std::vector<bool> blended(cloud_.points.size(), false);
-    std::vector<GrownShape> found;
+    std::vector<FoundShape> found;
     std::size_t tried = 0;
     for (const Index seed : ordered_seeds()) {
       if (++tried % 256 == 0 && interrupt_) interrupt_();
@@ -157,7 +142,7 @@ class Grower {
       for (const ShapeGuess& guess : best_guesses(patch, axes, planes_only)) {
         const auto kind = static_cast<std::size_t>(guess.shape.kind);
         if (covered[kind][seed]) continue;
-        GrownShape grown{.shape = guess.shape, .freedom = freedom_of(guess), .points = patch, .gain = 0, .blend_of = {}};
+        FoundShape grown{.shape = guess.shape, .freedom = freedom_of(guess), .points = patch, .gain = 0, .relations = {}};
         if (!grow(grown)) {
           // What has spread far in vain would do so again from beside.
           if (grown.points.size() > 3 * patch_size)
@@ -188,9 +173,9 @@ class Grower {
   }
 
   // The rounding between two of these that describes the patch best, grown.
-  std::optional<GrownShape> grown_blend(Index seed, const std::vector<Index>& patch) {
+  std::optional<FoundShape> grown_blend(Index seed, const std::vector<Index>& patch) {
     const std::vector<Index> sides = sides_near(seed);
-    std::optional<GrownShape> best;
+    std::optional<FoundShape> best;
     for (std::size_t a = 0; a < sides.size(); ++a)
       for (std::size_t b = a + 1; b < sides.size(); ++b)
         for (const bool inner : {false, true}) {
@@ -199,8 +184,8 @@ class Grower {
           if (!blend) continue;
           const auto radius = blend->radius_through(cloud_.points[seed]);
           if (!radius || blend->with_radius(*radius).normal(cloud_.points[seed]).dot(normals_[seed]) < 0.7) continue;
-          GrownShape grown{.shape = blend->with_radius(*radius), .freedom = blend->freedom(), .points = patch,
-                           .gain = 0, .blend_of = std::array{sides[a], sides[b]}};
+          FoundShape grown{.shape = blend->with_radius(*radius), .freedom = blend->freedom(), .points = patch,
+                           .gain = 0, .relations = {.tangent_to = std::array{sides[a], sides[b]}}};
           if (grow(grown) && (!best || grown.gain > best->gain)) best = std::move(grown);
         }
     return best;
@@ -214,7 +199,7 @@ class Grower {
     for (ShapeGuess& guess : guess_shapes(cloud_, patch, axes)) {
       if (planes_only && guess.shape.kind != ShapeKind::plane) continue;
       double cost = description_cost(guess.shape.kind, freedom_of(guess));
-      for (const Index i : patch) cost += std::min(10 * unexplained, cost_of(cloud_, noise_, guess.shape, i));
+      for (const Index i : patch) cost += std::min(10 * cost_without_shape, cost_of(cloud_, noise_, guess.shape, i));
       const auto kind = static_cast<std::size_t>(guess.shape.kind);
       if (!(cost < least[kind])) continue;
       least[kind] = cost;
@@ -228,7 +213,7 @@ class Grower {
 
   // Fits the shape to its points and spreads from them over others that it describes better than what they have, until
   // both stay. At most threefold at a time: a shape fitted to few points is not to be trusted far off.
-  bool grow(GrownShape& grown) {
+  bool grow(FoundShape& grown) {
     constexpr int most_rounds = 12;
     std::vector<Index> members = grown.points;
     for (int round = 0; round < most_rounds; ++round) {
@@ -239,7 +224,7 @@ class Grower {
         return false;
       }
       // The axis has turned.
-      if (is_full(grown)) grown.freedom = full_freedom(grown.shape);
+      if (grown.is_free()) grown.freedom = full_freedom(grown.shape);
       std::vector<Index> next = flooded(grown.shape, members, 3 * members.size());
       if (next.size() < 4) return false;
       const bool same = next == members;
@@ -275,13 +260,13 @@ class Grower {
     const double cost = cost_of(cloud_, noise_, shape, i);
     if (!(cost < most_cost)) return 0;
     const Index label = grown_.labels[i];
-    if (label == no_shape) return unexplained - cost;
+    if (label == no_shape) return cost_without_shape - cost;
     const Vec3& p = cloud_.points[i];
     if (grown_.shapes[label].shape.normal(p).dot(shape.normal(p)) < same_way) return cost_[i] - cost;
     return std::max(cost_[i], noise_alone) - std::max(cost, noise_alone);
   }
 
-  bool rate(GrownShape& grown) const {
+  bool rate(FoundShape& grown) const {
     double saved = 0;
     for (const Index i : grown.points) saved += saving(grown.shape, i);
     grown.gain = saved - description_cost(grown.shape.kind, grown.freedom);
@@ -289,7 +274,7 @@ class Grower {
   }
 
   // The best candidate is grown again over what the better ones have left it, and taken if it still is the best.
-  bool accept_best_first(std::vector<GrownShape> waiting, double least_gain) {
+  bool accept_best_first(std::vector<FoundShape> waiting, double least_gain) {
     using Entry = std::pair<double, std::size_t>;
     const auto worse = [](const Entry& a, const Entry& b) {
       return a.first < b.first || (a.first == b.first && a.second > b.second);
@@ -300,7 +285,7 @@ class Grower {
     while (!queue.empty()) {
       const auto [gain, i] = queue.top();
       queue.pop();
-      GrownShape& grown = waiting[i];
+      FoundShape& grown = waiting[i];
       if (!grow(grown) || grown.gain <= least_gain) continue;
       if (grown.gain < 0.95 * gain && !queue.empty() && grown.gain < queue.top().first) {
         queue.emplace(grown.gain, i);
@@ -312,7 +297,7 @@ class Grower {
     return any;
   }
 
-  void accept(GrownShape grown) {
+  void accept(FoundShape grown) {
     const auto label = static_cast<Index>(grown_.shapes.size());
     for (const Index i : grown.points) {
       if (const Index old = grown_.labels[i]; old != no_shape) std::erase(grown_.shapes[old].points, i);
@@ -332,93 +317,15 @@ class Grower {
   std::vector<double> cost_;  // of each point as it is described now
   std::vector<std::uint32_t> mark_;
   std::uint32_t round_ = 0;
-  GrownShapes grown_;
+  ShapeSet grown_;
 };
-
-void relabel(const OrientedPoints& cloud, const Neighbours& neighbours, const ShapeNoise& noise, GrownShapes& grown) {
-  std::vector<Index> labels(grown.labels.size(), no_shape);
-  std::vector<Index> tried;
-  for (Index i = 0; i < labels.size(); ++i) {
-    tried.clear();
-    double least = most_cost;
-    const auto try_shape = [&](Index label) {
-      if (label == no_shape || std::find(tried.begin(), tried.end(), label) != tried.end()) return;
-      tried.push_back(label);
-      const double cost = cost_of(cloud, noise, grown.shapes[label].shape, i);
-      if (!(cost < least)) return;
-      least = cost;
-      labels[i] = label;
-    };
-    try_shape(grown.labels[i]);
-    const auto near = neighbours.of(i);
-    for (const Index j : near.first(std::min<std::size_t>(10, near.size()))) try_shape(grown.labels[j]);
-  }
-  grown.labels = std::move(labels);
-  for (GrownShape& shape : grown.shapes) shape.points.clear();
-  for (Index i = 0; i < grown.labels.size(); ++i)
-    if (grown.labels[i] != no_shape) grown.shapes[grown.labels[i]].points.push_back(i);
-}
-
-// Roundings follow what they are tangent to.
-void follow_sides(GrownShapes& grown) {
-  for (GrownShape& shape : grown.shapes) {
-    if (!shape.blend_of) continue;
-    const auto blend = Blend::between(grown.shapes[(*shape.blend_of)[0]].shape, grown.shapes[(*shape.blend_of)[1]].shape,
-                                      shape.shape.hollow, shape.shape.origin);
-    if (!blend) continue;
-    shape.shape = blend->with_radius(blend_radius(shape.shape));
-    shape.freedom = blend->freedom();
-  }
-}
-
-// Shapes whose points save less than the shape costs.
-void drop_unpaid(const OrientedPoints& cloud, const Neighbours& neighbours, const ShapeNoise& noise,
-                 GrownShapes& grown) {
-  std::vector<Index> renamed(grown.shapes.size(), no_shape);
-  std::vector<GrownShape> kept;
-  for (std::size_t s = 0; s < grown.shapes.size(); ++s) {
-    GrownShape& shape = grown.shapes[s];
-    double saved = 0;
-    for (const Index i : shape.points) saved += unexplained - cost_of(cloud, noise, shape.shape, i);
-    shape.gain = saved - description_cost(shape.shape.kind, shape.freedom);
-    if (!(shape.gain > 0) || !leaves_noise(cloud, neighbours, noise, shape.shape, shape.points)) continue;
-    renamed[s] = static_cast<Index>(kept.size());
-    kept.push_back(std::move(shape));
-  }
-  for (Index& label : grown.labels)
-    if (label != no_shape) label = renamed[label];
-  for (GrownShape& shape : kept) {
-    if (!shape.blend_of) continue;
-    for (Index& side : *shape.blend_of) side = renamed[side];
-    if ((*shape.blend_of)[0] == no_shape || (*shape.blend_of)[1] == no_shape) {
-      shape.blend_of.reset();  // what it was tangent to is gone
-      shape.freedom = freedom_on_direction(shape.shape);
-    }
-  }
-  grown.shapes = std::move(kept);
-}
 
 }  // namespace
 
-GrownShapes grow_shapes(const std::vector<Vec3>& points, const Neighbours& neighbours,
+ShapeSet grow_shapes(const std::vector<Vec3>& points, const Neighbours& neighbours,
                         const std::vector<Vec3>& outwards, const ShapeNoise& noise, std::vector<Vec3>& normals,
                         const Interrupt& interrupt) {
   return Grower(points, neighbours, outwards, noise, normals, interrupt).run();
-}
-
-void compete_for_points(const OrientedPoints& cloud, const Neighbours& neighbours, const ShapeNoise& noise, int rounds,
-                        GrownShapes& grown) {
-  for (int round = 0; round < rounds; ++round) {
-    relabel(cloud, neighbours, noise, grown);
-    drop_unpaid(cloud, neighbours, noise, grown);
-    follow_sides(grown);
-    for (GrownShape& shape : grown.shapes) {
-      Shape fitted = shape.shape;
-      if (!fit_shape(fitted, shape.freedom, cloud.points, shape.points, noise.sigma).found) continue;
-      shape.shape = fitted;
-      if (is_full(shape)) shape.freedom = full_freedom(fitted);
-    }
-  }
 }
 
 }  // namespace scan2fea
