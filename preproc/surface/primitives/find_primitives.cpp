@@ -79,8 +79,7 @@ void describe(const OrientedPoints& cloud, ShapeSet&& grown, Primitives& found) 
   for (const FoundShape& shape : grown.shapes) {
     const Reach reach = reach_of(shape.shape, cloud.points, shape.points);
     Primitive primitive{.shape = shape.shape, .use = use_of(shape.shape, reach.turn_deg), .points = shape.points.size(), .fit = rms_distance(cloud, shape.shape, shape.points),
-         .extent = reach.extent, .turn_deg = reach.turn_deg, .degrees_of_freedom = static_cast<int>(shape.freedom.size())};
-    primitive.relations = shape.relations;
+         .extent = reach.extent, .turn_deg = reach.turn_deg, .degrees_of_freedom = static_cast<int>(shape.freedom.size()), .relations = shape.relations};
     found.list.push_back(primitive);
   }
   found.labels = std::move(grown.labels);

@@ -185,7 +185,8 @@ class Grower {
           const auto radius = blend->radius_through(cloud_.points[seed]);
           if (!radius || blend->with_radius(*radius).normal(cloud_.points[seed]).dot(normals_[seed]) < 0.7) continue;
           FoundShape grown{.shape = blend->with_radius(*radius), .freedom = blend->freedom(), .points = patch,
-                           .gain = 0, .relations = {.tangent_to = std::array{sides[a], sides[b]}}};
+                           .gain = 0, .relations = {}};
+          grown.relations.tangent_to = std::array{sides[a], sides[b]};
           if (grow(grown) && (!best || grown.gain > best->gain)) best = std::move(grown);
         }
     return best;
@@ -273,6 +274,12 @@ class Grower {
     return grown.gain > 0 && leaves_noise(cloud_, neighbours_, noise_, grown.shape, grown.points);
   }
 
+  // Where planes and cylinders can still come, a small ball or torus over both is premature.
+  static double strictness(const FoundShape& grown) {
+    const bool usual = grown.shape.kind == ShapeKind::plane || grown.shape.kind == ShapeKind::cylinder;
+    return usual || grown.relations.tangent_to ? 1 : 4;
+  }
+
   // The best candidate is grown again over what the better ones have left it, and taken if it still is the best.
   bool accept_best_first(std::vector<FoundShape> waiting, double least_gain) {
     using Entry = std::pair<double, std::size_t>;
@@ -286,7 +293,7 @@ class Grower {
       const auto [gain, i] = queue.top();
       queue.pop();
       FoundShape& grown = waiting[i];
-      if (!grow(grown) || grown.gain <= least_gain) continue;
+      if (!grow(grown) || grown.gain <= least_gain * strictness(grown)) continue;
       if (grown.gain < 0.95 * gain && !queue.empty() && grown.gain < queue.top().first) {
         queue.emplace(grown.gain, i);
         continue;

@@ -34,6 +34,7 @@ class Relater {
 
   void run() {
     merge();
+    release_radii();
     order_by_support();
     align_directions();
     make_tangent();
@@ -52,13 +53,33 @@ class Relater {
     std::stable_sort(order_.begin(), order_.end(), [&](Index a, Index b) { return support[a] > support[b]; });
   }
 
+  std::vector<Index> held_by(const Shape& shape, const std::vector<Index>& points) const {
+    std::vector<Index> held;
+    for (const Index i : points)
+      if (cost_of(cloud_, noise_, shape, i) < most_cost) held.push_back(i);
+    return held;
+  }
+
+  // Roundings get their own radius back, until it is known to be another's.
+  void release_radii() {
+    for (FoundShape& found : set_.shapes) {
+      if (!found.relations.tangent_to) continue;
+      const auto [one, other] = *found.relations.tangent_to;
+      const auto blend = Blend::between(set_.shapes[one].shape, set_.shapes[other].shape, found.shape.hollow, found.shape.origin);
+      if (!blend) continue;
+      found.shape = blend->with_radius(blend_radius(found.shape));
+      found.freedom = blend->freedom();
+      fit_shape(found.shape, found.freedom, cloud_.points, found.points, noise_.sigma);
+    }
+  }
+
   // Fits the trial to the shape's points, and takes it if the description gets shorter.
   bool take_if_shorter(FoundShape& found, Shape trial, ShapeFreedom freedom) const {
     if (!fit_shape(trial, freedom, cloud_.points, found.points, noise_.sigma).found) return false;
     if (!(total_cost(cloud_, noise_, trial, freedom, found.points) <
           total_cost(cloud_, noise_, found.shape, found.freedom, found.points)))
       return false;
-    if (!leaves_noise(cloud_, neighbours_, noise_, trial, found.points)) return false;
+    if (!leaves_noise(cloud_, neighbours_, noise_, trial, held_by(trial, found.points))) return false;
     found.shape = trial;
     found.freedom = std::move(freedom);
     return true;
@@ -203,7 +224,7 @@ class Relater {
       const std::vector<Index> sides = sides_of(found, s);
       for (std::size_t a = 0; a < sides.size() && !found.relations.tangent_to; ++a)
         for (std::size_t b = a + 1; b < sides.size() && !found.relations.tangent_to; ++b)
-          if (became_blend(found, sides[a], sides[b])) found.relations = {.tangent_to = std::array{sides[a], sides[b]}};
+          if (became_blend(found, sides[a], sides[b])) found.relations.tangent_to = std::array{sides[a], sides[b]};
     }
   }
 

@@ -40,8 +40,8 @@ void drop_unpaid(const OrientedPoints& cloud, const Neighbours& neighbours, cons
 }  // namespace
 
 double description_cost(ShapeKind kind, const ShapeFreedom& freedom) {
-  // A piece of torus or cone can follow nearly any few points, and is rarer than a plane or cylinder.
-  const double rarity = kind == ShapeKind::torus ? 3 : kind == ShapeKind::cone ? 2 : kind == ShapeKind::sphere ? 1 : 0;
+  // A free piece of torus or cone can follow nearly any few points, and is rarer than a plane or cylinder.
+  const double rarity = freedom.size() < 2 ? 0 : kind == ShapeKind::torus ? 3 : kind == ShapeKind::cone ? 2 : kind == ShapeKind::sphere ? 1 : 0;
   return freedom_cost * (static_cast<double>(freedom.size()) + rarity);
 }
 
