@@ -51,7 +51,7 @@ std::optional<Blend> Blend::between(const Shape& one, const Shape& other, bool i
   blend.limit_.axis = other.axis;
   blend.limit_.origin = other.origin + one.axis.dot(one.origin - other.origin) / cosine * other.axis;
   blend.limit_.radius = other.radius;
-  blend.change_ = {.shift = std::copysign(side, cosine) * other.axis, .radius = other.hollow ? -side : side, .second = 1};
+  blend.change_ = {.shift = std::copysign(1.0, cosine) * side * other.axis, .radius = other.hollow ? -side : side, .second = 1};
   return blend;
 }
 

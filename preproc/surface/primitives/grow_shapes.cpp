@@ -44,21 +44,64 @@ class Grower {
 
   ShapeSet run() {
     // Planes tell the directions in which axes run.
-    accept_best_first(candidates(true), 0);
-    // Strong shapes first, then those that pay on their axes. Where strong ones describe less than a third, weak ones do
+    accept_best_first(candidates(true, least_first_plane), 0);
+    // Strong shapes first, then those that pay on their axes. Where strong ones describe less than a fifth, weak ones do
     // not make a part of it.
+    constexpr double strong = 250;
     bool any = true;
-    for (const double least_gain : {250.0, 100.0, 0.0, 0.0}) {
-      if (least_gain == 0 && (!any || 3 * described() < cloud_.points.size())) break;
+    for (const double least_gain : {strong, 100.0, 0.0, 0.0}) {
+      if (!any || (least_gain < strong && 5 * described() < cloud_.points.size())) break;
       compete_for_points(cloud_, neighbours_, noise_, 1, grown_);
       recount_costs();
       look_at_the_rest();
       any = accept_best_first(candidates(false), least_gain) || least_gain > 0;
     }
+    // On a part few shapes are doubtful.
+    for (Index s = 0; s < grown_.shapes.size() && 2 * described() > cloud_.points.size(); ++s)
+      if (is_doubtful(grown_.shapes[s])) try_without(s);
     return std::move(grown_);
   }
 
  private:
+  // A few points on a piece of something bent: often a face and the rounding along its edge.
+  static bool is_doubtful(const FoundShape& found) {
+    constexpr std::size_t few = 60;
+    return found.shape.kind != ShapeKind::plane && !found.relations.tangent_to && found.points.size() < few;
+  }
+
+  // Takes the shape and its doubtful neighbours away and looks for planes first, then for what else there is in their
+  // place. What makes the description shorter stays.
+  void try_without(Index doubted) {
+    constexpr std::size_t least_plane = 5;
+    const ShapeSet before = grown_;
+    const std::vector<Vec3> normals_before = normals_;
+    const double cost_before = total();
+    std::vector<bool> kept(grown_.shapes.size(), true);
+    kept[doubted] = false;
+    for (const Index i : before.shapes[doubted].points)
+      for (const Index j : neighbours_.of(i))
+        if (const Index label = before.labels[j]; label != no_shape && is_doubtful(before.shapes[label])) kept[label] = false;
+    keep_shapes(grown_, kept);
+    recount_costs();
+    look_at_the_rest();
+    accept_best_first(candidates(true, least_plane), 0);
+    compete_for_points(cloud_, neighbours_, noise_, 1, grown_);
+    recount_costs();
+    look_at_the_rest();
+    accept_best_first(candidates(false), 0);
+    if (total() < cost_before) return;
+    grown_ = before;
+    normals_ = normals_before;
+    recount_costs();
+  }
+
+  // Of the whole description.
+  double total() const {
+    double sum = cost_without_shape * static_cast<double>(grown_.labels.size() - described());
+    for (const FoundShape& found : grown_.shapes) sum += total_cost(cloud_, noise_, found.shape, found.freedom, found.points);
+    return sum;
+  }
+
   std::size_t described() const {
     return grown_.labels.size() - static_cast<std::size_t>(std::count(grown_.labels.begin(), grown_.labels.end(), no_shape));
   }
@@ -124,7 +167,7 @@ class Grower {
     return patch;
   }
 
-  std::vector<FoundShape> candidates(bool planes_only) {
+  std::vector<FoundShape> candidates(bool planes_only, std::size_t least_points = 4) {
     std::array<std::vector<bool>, 5> covered;
     covered.fill(std::vector<bool>(cloud_.points.size(), false));
     const std::vector<KnownAxis> axes = known_axes();
@@ -149,7 +192,7 @@ class Grower {
             for (const Index i : patch) covered[kind][i] = true;
           continue;
         }
-        if (planes_only && grown.points.size() < least_first_plane) continue;
+        if (grown.points.size() < least_points) continue;
         for (const Index i : grown.points) covered[kind][i] = true;
         found.push_back(std::move(grown));
       }
@@ -159,11 +202,11 @@ class Grower {
 
   // The shapes of many points that are met first around a seed.
   std::vector<Index> sides_near(Index seed) const {
-    constexpr std::size_t most_sides = 3;
+    constexpr std::size_t most_sides = 3, least_points = 10;
     std::vector<Index> sides;
     const auto meet = [&](Index i) {
       const Index label = grown_.labels[i];
-      if (label == no_shape || sides.size() == most_sides || grown_.shapes[label].points.size() < least_first_plane) return;
+      if (label == no_shape || sides.size() == most_sides || grown_.shapes[label].points.size() < least_points) return;
       if (std::find(sides.begin(), sides.end(), label) == sides.end()) sides.push_back(label);
     };
     for (const Index i : neighbours_.of(seed)) meet(i);
@@ -174,6 +217,7 @@ class Grower {
 
   // The rounding between two of these that describes the patch best, grown.
   std::optional<FoundShape> grown_blend(Index seed, const std::vector<Index>& patch) {
+    constexpr std::size_t least_points = 3;
     const std::vector<Index> sides = sides_near(seed);
     std::optional<FoundShape> best;
     for (std::size_t a = 0; a < sides.size(); ++a)
@@ -183,9 +227,12 @@ class Grower {
                                             cloud_.points[seed]);
           if (!blend) continue;
           const auto radius = blend->radius_through(cloud_.points[seed]);
-          if (!radius || blend->with_radius(*radius).normal(cloud_.points[seed]).dot(normals_[seed]) < 0.7) continue;
-          FoundShape grown{.shape = blend->with_radius(*radius), .freedom = blend->freedom(), .points = patch,
-                           .gain = 0, .relations = {}};
+          if (!radius) continue;
+          const Shape shape = blend->with_radius(*radius);
+          FoundShape grown{.shape = shape, .freedom = blend->freedom(), .points = {}, .gain = 0, .relations = {}};
+          for (const Index i : patch)
+            if (cost_of(cloud_, noise_, shape, i) < most_cost) grown.points.push_back(i);
+          if (grown.points.size() < least_points) continue;
           grown.relations.tangent_to = std::array{sides[a], sides[b]};
           if (grow(grown) && (!best || grown.gain > best->gain)) best = std::move(grown);
         }

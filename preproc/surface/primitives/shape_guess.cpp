@@ -43,6 +43,15 @@ class Patch {
     return shape;
   }
 
+  std::optional<Shape> plane_across(const Vec3& direction) const {
+    const double cosine = direction.dot(mean_normal_);
+    if (std::abs(cosine) < 0.9) return std::nullopt;
+    Shape shape;
+    shape.origin = middle_;
+    shape.axis = cosine < 0 ? Vec3(-direction) : direction;
+    return shape;
+  }
+
   // The radius r and centre c for which c + r n is nearest to the points.
   std::optional<Shape> sphere() const {
     double up = 0, down = 0;
@@ -213,6 +222,8 @@ std::vector<ShapeGuess> guess_shapes(const OrientedPoints& cloud, std::span<cons
   guesses.push_back({view.plane()});
   if (const auto sphere = view.sphere()) guesses.push_back({*sphere});
   for (const KnownAxis& axis : axes) {
+    if (!axis.origin)
+      if (const auto plane = view.plane_across(axis.direction)) guesses.push_back({*plane, true});
     if (!axis.origin)
       if (const auto cylinder = view.cylinder_along(axis.direction)) guesses.push_back({*cylinder, true});
     view.add_about(axis, true, guesses);
