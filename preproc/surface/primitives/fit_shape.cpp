@@ -132,8 +132,7 @@ void centre_on(Shape& shape, const std::vector<Vec3>& points, std::span<const st
 }
 
 ShapeFit fit_shape(Shape& shape, const ShapeFreedom& freedom, const std::vector<Vec3>& points,
-                   std::span<const std::uint32_t> which, double least_sigma) {
-  constexpr int most_steps = 12;
+                   std::span<const std::uint32_t> which, double least_sigma, int most_steps) {
   centre_on(shape, points, which);
   Shape trial = shape;
   ShapeFreedom here = freedom;

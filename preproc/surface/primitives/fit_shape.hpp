@@ -34,9 +34,9 @@ struct ShapeFit {
 };
 
 // Gauss-Newton with Tukey's biweight, whose scale is the median residual's, but at least `least_sigma` (model units,
-// > 0). The origin slides along the axis to the points' middle. O(points) a step, at most 12 steps.
+// > 0). The origin slides along the axis to the points' middle. O(points) a step.
 ShapeFit fit_shape(Shape& shape, const ShapeFreedom& freedom, const std::vector<Vec3>& points,
-                   std::span<const std::uint32_t> which, double least_sigma);
+                   std::span<const std::uint32_t> which, double least_sigma, int most_steps = 12);
 
 // Slides the origin of plane, cylinder or cone to the middle of the points, which changes the description alone.
 void centre_on(Shape& shape, const std::vector<Vec3>& points, std::span<const std::uint32_t> which);

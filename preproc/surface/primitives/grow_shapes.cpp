@@ -45,24 +45,32 @@ class Grower {
   ShapeSet run() {
     // Planes tell the directions in which axes run.
     accept_best_first(candidates(true, least_first_plane), 0);
-    // Strong shapes first, then those that pay on their axes. Where strong ones describe less than a fifth, weak ones do
-    // not make a part of it.
+    // Strong shapes first, then those that pay on their axes.
     constexpr double strong = 250;
     bool any = true;
     for (const double least_gain : {strong, 100.0, 0.0, 0.0}) {
-      if (!any || (least_gain < strong && 5 * described() < cloud_.points.size())) break;
+      if (!any || (least_gain < strong && !is_part())) break;
       compete_for_points(cloud_, neighbours_, noise_, 1, grown_);
       recount_costs();
       look_at_the_rest();
       any = accept_best_first(candidates(false), least_gain) || least_gain > 0;
     }
-    // On a part few shapes are doubtful.
-    for (Index s = 0; s < grown_.shapes.size() && 2 * described() > cloud_.points.size(); ++s)
+    for (Index s = 0; s < grown_.shapes.size() && is_part(); ++s)
       if (is_doubtful(grown_.shapes[s])) try_without(s);
     return std::move(grown_);
   }
 
  private:
+  // Where strong shapes describe less than a fifth, or need many numbers for it, weak ones do not make a part of it, and
+  // would take long to be found.
+  bool is_part() const {
+    constexpr double least_points_per_freedom = 12;  // organic scans have up to 9, parts 25 to 60
+    int freedom = 0;
+    for (const FoundShape& found : grown_.shapes) freedom += degrees_of_freedom(found.shape.kind);
+    const auto points = static_cast<double>(described());
+    return 5 * points >= static_cast<double>(cloud_.points.size()) && points >= least_points_per_freedom * freedom;
+  }
+
   // A few points on a piece of something bent: often a face and the rounding along its edge.
   static bool is_doubtful(const FoundShape& found) {
     constexpr std::size_t few = 60;
@@ -247,7 +255,7 @@ class Grower {
     for (ShapeGuess& guess : guess_shapes(cloud_, patch, axes)) {
       if (planes_only && guess.shape.kind != ShapeKind::plane) continue;
       double cost = description_cost(guess.shape.kind, freedom_of(guess));
-      for (const Index i : patch) cost += std::min(10 * cost_without_shape, cost_of(cloud_, noise_, guess.shape, i));
+      for (const Index i : patch) cost += std::min(10 * most_cost, cost_of(cloud_, noise_, guess.shape, i));
       const auto kind = static_cast<std::size_t>(guess.shape.kind);
       if (!(cost < least[kind])) continue;
       least[kind] = cost;
@@ -262,10 +270,10 @@ class Grower {
   // Fits the shape to its points and spreads from them over others that it describes better than what they have, until
   // both stay. At most threefold at a time: a shape fitted to few points is not to be trusted far off.
   bool grow(FoundShape& grown) {
-    constexpr int most_rounds = 12;
+    constexpr int most_rounds = 12, steps_while_growing = 4;
     std::vector<Index> members = grown.points;
     for (int round = 0; round < most_rounds; ++round) {
-      const ShapeFit fit = fit_shape(grown.shape, grown.freedom, cloud_.points, members, noise_.sigma);
+      const ShapeFit fit = fit_shape(grown.shape, grown.freedom, cloud_.points, members, noise_.sigma, steps_while_growing);
       if (!fit.found) return false;
       if (members.size() > patch_size && rms_distance(cloud_, grown.shape, members) > 2 * noise_.sigma) {
         grown.points = std::move(members);
