@@ -36,7 +36,8 @@ std::optional<Blend> Blend::between(const Shape& one, const Shape& other, bool i
     const Vec3 across = one.axis.cross(other.axis);
     if (!(across.norm() > least_sine)) return std::nullopt;
     const Vec3 axis = across.normalized();
-    const auto edge = solve(one.axis, other.axis, axis, {one.axis.dot(one.origin), other.axis.dot(other.origin), axis.dot(near)});
+    const auto edge =
+        solve(one.axis, other.axis, axis, {one.axis.dot(one.origin), other.axis.dot(other.origin), axis.dot(near)});
     const auto shift = solve(one.axis, other.axis, axis, {side, side, 0});
     if (!edge || !shift) return std::nullopt;
     blend.limit_.kind = ShapeKind::cylinder;
@@ -51,7 +52,8 @@ std::optional<Blend> Blend::between(const Shape& one, const Shape& other, bool i
   blend.limit_.axis = other.axis;
   blend.limit_.origin = other.origin + one.axis.dot(one.origin - other.origin) / cosine * other.axis;
   blend.limit_.radius = other.radius;
-  blend.change_ = {.shift = std::copysign(1.0, cosine) * side * other.axis, .radius = other.hollow ? -side : side, .second = 1};
+  blend.change_ = {
+      .shift = std::copysign(1.0, cosine) * side * other.axis, .radius = other.hollow ? -side : side, .second = 1};
   return blend;
 }
 

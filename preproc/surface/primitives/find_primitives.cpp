@@ -78,8 +78,14 @@ PrimitiveUse use_of(const Shape& shape, double turn_deg) {
 void describe(const OrientedPoints& cloud, ShapeSet&& grown, Primitives& found) {
   for (const FoundShape& shape : grown.shapes) {
     const Reach reach = reach_of(shape.shape, cloud.points, shape.points);
-    Primitive primitive{.shape = shape.shape, .use = use_of(shape.shape, reach.turn_deg), .points = shape.points.size(), .fit = rms_distance(cloud, shape.shape, shape.points),
-         .extent = reach.extent, .turn_deg = reach.turn_deg, .degrees_of_freedom = static_cast<int>(shape.freedom.size()), .relations = shape.relations};
+    Primitive primitive{.shape = shape.shape,
+                        .use = use_of(shape.shape, reach.turn_deg),
+                        .points = shape.points.size(),
+                        .fit = rms_distance(cloud, shape.shape, shape.points),
+                        .extent = reach.extent,
+                        .turn_deg = reach.turn_deg,
+                        .degrees_of_freedom = static_cast<int>(shape.freedom.size()),
+                        .relations = shape.relations};
     found.list.push_back(primitive);
   }
   found.labels = std::move(grown.labels);
@@ -100,8 +106,8 @@ Primitives find_primitives(const std::vector<Vec3>& points, const Neighbours& ne
   found.noise = normals.noise;
   found.sigma = noise.sigma;
   found.spacing = normals.spacing;
-  ShapeSet grown = grow_shapes(points, neighbours, outwards, noise, normals.normals,
-                                  [&] { progress("primitives", 0.5); });
+  ShapeSet grown =
+      grow_shapes(points, neighbours, outwards, noise, normals.normals, [&] { progress("primitives", 0.5); });
   const OrientedPoints cloud{points, normals.normals};
   // Relations let fewer points decide a shape, and shapes that are surer win points back; then both once more.
   for (int round = 0; round < 2; ++round) {
@@ -127,7 +133,8 @@ Primitives find_primitives(const std::vector<Vec3>& points, const Neighbours& ne
 }
 
 Primitives find_primitives(const SurfaceMesh& mesh, const PrimitiveOptions& options, const Progress& progress) {
-  return find_primitives(mesh.vertices, nearest_on_surface(mesh, neighbours_per_point), vertex_normals(mesh), options, progress);
+  return find_primitives(mesh.vertices, nearest_on_surface(mesh, neighbours_per_point), vertex_normals(mesh), options,
+                         progress);
 }
 
 }  // namespace scan2fea

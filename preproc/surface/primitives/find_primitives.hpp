@@ -73,6 +73,7 @@ Primitives find_primitives(const std::vector<Vec3>& points, const Neighbours& ne
                            const Progress& progress = {});
 
 // Of a surface's vertices: neighbours along it, sides by its triangles.
-Primitives find_primitives(const SurfaceMesh& mesh, const PrimitiveOptions& options = {}, const Progress& progress = {});
+Primitives find_primitives(const SurfaceMesh& mesh, const PrimitiveOptions& options = {},
+                           const Progress& progress = {});
 
 }  // namespace scan2fea

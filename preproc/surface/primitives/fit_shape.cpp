@@ -8,7 +8,7 @@
 namespace scan2fea {
 namespace {
 
-constexpr double tukey = 4.685;        // in sigmas: 95 % efficiency for Gaussian residuals
+constexpr double tukey = 4.685;          // in sigmas: 95 % efficiency for Gaussian residuals
 constexpr double median_sigma = 1.4826;  // a Gaussian's sigma over its median absolute value
 
 using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 8, 1>;
@@ -73,7 +73,8 @@ struct Equations {
       const double weight = (1 - t * t) * (1 - t * t);
       for (Eigen::Index i = 0; i < row.size(); ++i) {
         const ShapeChange& change = freedom[static_cast<std::size_t>(i)];
-        row[i] = d.shift.dot(change.shift) + d.tilt.dot(change.tilt) + d.radius * change.radius + d.second * change.second;
+        row[i] =
+            d.shift.dot(change.shift) + d.tilt.dot(change.tilt) + d.radius * change.radius + d.second * change.second;
       }
       matrix += weight * row * row.transpose();
       right -= weight * d.distance * row;

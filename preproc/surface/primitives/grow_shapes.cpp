@@ -26,6 +26,32 @@ ShapeFreedom freedom_of(const ShapeGuess& guess) {
   return guess.on_known_direction ? freedom_on_direction(guess.shape) : full_freedom(guess.shape);
 }
 
+enum class Sought {
+  large_planes,
+  known_planes,  // across a known direction
+  usual,         // planes, cylinders, roundings
+  all,
+};
+
+bool is_usual(ShapeKind kind) {
+  return kind == ShapeKind::plane || kind == ShapeKind::cylinder;
+}
+
+bool is_sought(const ShapeGuess& guess, Sought sought) {
+  const bool plane = guess.shape.kind == ShapeKind::plane;
+  switch (sought) {
+    case Sought::large_planes:
+      return plane;
+    case Sought::known_planes:
+      return plane && guess.on_known_direction;
+    case Sought::usual:
+      return is_usual(guess.shape.kind);
+    case Sought::all:
+      return true;
+  }
+  return true;
+}
+
 class Grower {
  public:
   Grower(const std::vector<Vec3>& points, const Neighbours& neighbours, const std::vector<Vec3>& outwards,
@@ -44,7 +70,7 @@ class Grower {
 
   ShapeSet run() {
     // Planes tell the directions in which axes run.
-    accept_best_first(candidates(true, least_first_plane), 0);
+    accept_best_first(candidates(Sought::large_planes), 0);
     // Strong shapes first, then those that pay on their axes.
     constexpr double strong = 250;
     bool any = true;
@@ -53,16 +79,22 @@ class Grower {
       compete_for_points(cloud_, neighbours_, noise_, 1, grown_);
       recount_costs();
       look_at_the_rest();
-      any = accept_best_first(candidates(false), least_gain) || least_gain > 0;
+      any = accept_best_first(candidates(Sought::all), least_gain) || least_gain > 0;
     }
-    for (Index s = 0; s < grown_.shapes.size() && is_part(); ++s)
-      if (is_doubtful(grown_.shapes[s])) try_without(s);
+    // A bound for parts of many small shapes: what is tried first is largest.
+    constexpr int most_doubts = 50;
+    int doubts = 0;
+    for (Index s = 0; s < grown_.shapes.size() && doubts < most_doubts && is_part(); ++s) {
+      if (!is_doubtful(grown_.shapes[s])) continue;
+      ++doubts;
+      try_without(s);
+    }
     return std::move(grown_);
   }
 
  private:
-  // Where strong shapes describe less than a fifth, or need many numbers for it, weak ones do not make a part of it, and
-  // would take long to be found.
+  // Where strong shapes describe less than a fifth, or need many numbers for it, weak ones do not make a part of it,
+  // and would take long to be found.
   bool is_part() const {
     constexpr double least_points_per_freedom = 12;  // organic scans have up to 9, parts 25 to 60
     int freedom = 0;
@@ -71,16 +103,17 @@ class Grower {
     return 5 * points >= static_cast<double>(cloud_.points.size()) && points >= least_points_per_freedom * freedom;
   }
 
-  // A few points on a piece of something bent: often a face and the rounding along its edge.
+  // A few points on a piece of something bent are often a face and the rounding along its edge; a cone of hardly any
+  // angle a cylinder and the fillet at its foot.
   static bool is_doubtful(const FoundShape& found) {
     constexpr std::size_t few = 60;
-    return found.shape.kind != ShapeKind::plane && !found.relations.tangent_to && found.points.size() < few;
+    if (found.shape.kind == ShapeKind::plane || found.relations.tangent_to) return false;
+    return found.shape.kind != ShapeKind::cylinder || found.points.size() < few;
   }
 
-  // Takes the shape and its doubtful neighbours away and looks for planes first, then for what else there is in their
-  // place. What makes the description shorter stays.
+  // Takes the shape and its doubtful neighbours away and looks for planes across known directions first, then for
+  // cylinders and roundings, then for what else there is in their place. What makes the description shorter stays.
   void try_without(Index doubted) {
-    constexpr std::size_t least_plane = 5;
     const ShapeSet before = grown_;
     const std::vector<Vec3> normals_before = normals_;
     const double cost_before = total();
@@ -88,15 +121,16 @@ class Grower {
     kept[doubted] = false;
     for (const Index i : before.shapes[doubted].points)
       for (const Index j : neighbours_.of(i))
-        if (const Index label = before.labels[j]; label != no_shape && is_doubtful(before.shapes[label])) kept[label] = false;
+        if (const Index label = before.labels[j]; label != no_shape && is_doubtful(before.shapes[label]))
+          kept[label] = false;
     keep_shapes(grown_, kept);
     recount_costs();
-    look_at_the_rest();
-    accept_best_first(candidates(true, least_plane), 0);
-    compete_for_points(cloud_, neighbours_, noise_, 1, grown_);
-    recount_costs();
-    look_at_the_rest();
-    accept_best_first(candidates(false), 0);
+    for (const Sought sought : {Sought::known_planes, Sought::usual, Sought::all}) {
+      look_at_the_rest();
+      accept_best_first(candidates(sought), 0);
+      compete_for_points(cloud_, neighbours_, noise_, 1, grown_);
+      recount_costs();
+    }
     if (total() < cost_before) return;
     grown_ = before;
     normals_ = normals_before;
@@ -106,12 +140,14 @@ class Grower {
   // Of the whole description.
   double total() const {
     double sum = cost_without_shape * static_cast<double>(grown_.labels.size() - described());
-    for (const FoundShape& found : grown_.shapes) sum += total_cost(cloud_, noise_, found.shape, found.freedom, found.points);
+    for (const FoundShape& found : grown_.shapes)
+      sum += total_cost(cloud_, noise_, found.shape, found.freedom, found.points);
     return sum;
   }
 
   std::size_t described() const {
-    return grown_.labels.size() - static_cast<std::size_t>(std::count(grown_.labels.begin(), grown_.labels.end(), no_shape));
+    return grown_.labels.size() -
+           static_cast<std::size_t>(std::count(grown_.labels.begin(), grown_.labels.end(), no_shape));
   }
 
   // Neighbours and normals of the points without a shape, among themselves.
@@ -162,7 +198,8 @@ class Grower {
     }
     std::size_t lines = 0;
     for (const FoundShape* grown : by_size)
-      if (grown->shape.kind != ShapeKind::plane && ++lines <= most) axes.push_back({grown->shape.axis, grown->shape.origin});
+      if (grown->shape.kind != ShapeKind::plane && ++lines <= most)
+        axes.push_back({grown->shape.axis, grown->shape.origin});
     return axes;
   }
 
@@ -175,7 +212,7 @@ class Grower {
     return patch;
   }
 
-  std::vector<FoundShape> candidates(bool planes_only, std::size_t least_points = 4) {
+  std::vector<FoundShape> candidates(Sought sought) {
     std::array<std::vector<bool>, 5> covered;
     covered.fill(std::vector<bool>(cloud_.points.size(), false));
     const std::vector<KnownAxis> axes = known_axes();
@@ -185,27 +222,39 @@ class Grower {
     for (const Index seed : ordered_seeds()) {
       if (++tried % 256 == 0 && interrupt_) interrupt_();
       const std::vector<Index> patch = patch_of(seed);
-      if (!planes_only && !blended[seed])
+      if (sought >= Sought::usual && !blended[seed])
         if (auto blend = grown_blend(seed, patch)) {
           for (const Index i : blend->points) blended[i] = true;
           found.push_back(std::move(*blend));
         }
-      for (const ShapeGuess& guess : best_guesses(patch, axes, planes_only)) {
+      for (const ShapeGuess& guess : best_guesses(patch, axes, sought)) {
         const auto kind = static_cast<std::size_t>(guess.shape.kind);
         if (covered[kind][seed]) continue;
-        FoundShape grown{.shape = guess.shape, .freedom = freedom_of(guess), .points = patch, .gain = 0, .relations = {}};
+        FoundShape grown{.shape = guess.shape,
+                         .freedom = freedom_of(guess),
+                         .points = held_by(guess.shape, patch),
+                         .gain = 0,
+                         .relations = {}};
+        if (grown.points.size() < 5) grown.points = patch;
         if (!grow(grown)) {
           // What has spread far in vain would do so again from beside.
           if (grown.points.size() > 3 * patch_size)
             for (const Index i : patch) covered[kind][i] = true;
           continue;
         }
-        if (grown.points.size() < least_points) continue;
+        if (sought == Sought::large_planes && grown.points.size() < least_first_plane) continue;
         for (const Index i : grown.points) covered[kind][i] = true;
         found.push_back(std::move(grown));
       }
     }
     return found;
+  }
+
+  std::vector<Index> held_by(const Shape& shape, const std::vector<Index>& patch) const {
+    std::vector<Index> held;
+    for (const Index i : patch)
+      if (cost_of(cloud_, noise_, shape, i) < most_cost) held.push_back(i);
+    return held;
   }
 
   // The shapes of many points that are met first around a seed.
@@ -231,15 +280,14 @@ class Grower {
     for (std::size_t a = 0; a < sides.size(); ++a)
       for (std::size_t b = a + 1; b < sides.size(); ++b)
         for (const bool inner : {false, true}) {
-          const auto blend = Blend::between(grown_.shapes[sides[a]].shape, grown_.shapes[sides[b]].shape, inner,
-                                            cloud_.points[seed]);
+          const auto blend =
+              Blend::between(grown_.shapes[sides[a]].shape, grown_.shapes[sides[b]].shape, inner, cloud_.points[seed]);
           if (!blend) continue;
           const auto radius = blend->radius_through(cloud_.points[seed]);
           if (!radius) continue;
           const Shape shape = blend->with_radius(*radius);
-          FoundShape grown{.shape = shape, .freedom = blend->freedom(), .points = {}, .gain = 0, .relations = {}};
-          for (const Index i : patch)
-            if (cost_of(cloud_, noise_, shape, i) < most_cost) grown.points.push_back(i);
+          FoundShape grown{
+              .shape = shape, .freedom = blend->freedom(), .points = held_by(shape, patch), .gain = 0, .relations = {}};
           if (grown.points.size() < least_points) continue;
           grown.relations.tangent_to = std::array{sides[a], sides[b]};
           if (grow(grown) && (!best || grown.gain > best->gain)) best = std::move(grown);
@@ -248,12 +296,13 @@ class Grower {
   }
 
   // One of each kind: that which describes the patch best.
-  std::vector<ShapeGuess> best_guesses(const std::vector<Index>& patch, const std::vector<KnownAxis>& axes, bool planes_only) const {
+  std::vector<ShapeGuess> best_guesses(const std::vector<Index>& patch, const std::vector<KnownAxis>& axes,
+                                       Sought sought) const {
     std::array<std::optional<ShapeGuess>, 5> best;
     std::array<double, 5> least;
     least.fill(std::numeric_limits<double>::infinity());
     for (ShapeGuess& guess : guess_shapes(cloud_, patch, axes)) {
-      if (planes_only && guess.shape.kind != ShapeKind::plane) continue;
+      if (!is_sought(guess, sought)) continue;
       double cost = description_cost(guess.shape.kind, freedom_of(guess));
       for (const Index i : patch) cost += std::min(10 * most_cost, cost_of(cloud_, noise_, guess.shape, i));
       const auto kind = static_cast<std::size_t>(guess.shape.kind);
@@ -273,7 +322,8 @@ class Grower {
     constexpr int most_rounds = 12, steps_while_growing = 4;
     std::vector<Index> members = grown.points;
     for (int round = 0; round < most_rounds; ++round) {
-      const ShapeFit fit = fit_shape(grown.shape, grown.freedom, cloud_.points, members, noise_.sigma, steps_while_growing);
+      const ShapeFit fit =
+          fit_shape(grown.shape, grown.freedom, cloud_.points, members, noise_.sigma, steps_while_growing);
       if (!fit.found) return false;
       if (members.size() > patch_size && rms_distance(cloud_, grown.shape, members) > 2 * noise_.sigma) {
         grown.points = std::move(members);
@@ -308,11 +358,11 @@ class Grower {
     return region;
   }
 
-  // Of a point's cost, were the shape to describe it. Beside a shape that has it and runs the same way, costs that noise
-  // explains count alike: else each plane would lose the farther half of its noise to another one.
+  // Of a point's cost, were the shape to describe it. Beside a shape that has it and runs the same way, costs that
+  // noise explains count alike: else each plane would lose the farther half of its noise to another one.
   double saving(const Shape& shape, Index i) const {
-    constexpr double noise_alone = 10;      // exceeded by 1 % of squared distances and turns together
-    constexpr double same_way = 0.985;      // cosine of 10 degrees
+    constexpr double noise_alone = 10;  // exceeded by 1 % of squared distances and turns together
+    constexpr double same_way = 0.985;  // cosine of 10 degrees
     const double cost = cost_of(cloud_, noise_, shape, i);
     if (!(cost < most_cost)) return 0;
     const Index label = grown_.labels[i];
@@ -331,8 +381,7 @@ class Grower {
 
   // Where planes and cylinders can still come, a small ball or torus over both is premature.
   static double strictness(const FoundShape& grown) {
-    const bool usual = grown.shape.kind == ShapeKind::plane || grown.shape.kind == ShapeKind::cylinder;
-    return usual || grown.relations.tangent_to ? 1 : 4;
+    return is_usual(grown.shape.kind) || grown.relations.tangent_to ? 1 : 4;
   }
 
   // The best candidate is grown again over what the better ones have left it, and taken if it still is the best.
@@ -384,9 +433,8 @@ class Grower {
 
 }  // namespace
 
-ShapeSet grow_shapes(const std::vector<Vec3>& points, const Neighbours& neighbours,
-                        const std::vector<Vec3>& outwards, const ShapeNoise& noise, std::vector<Vec3>& normals,
-                        const Interrupt& interrupt) {
+ShapeSet grow_shapes(const std::vector<Vec3>& points, const Neighbours& neighbours, const std::vector<Vec3>& outwards,
+                     const ShapeNoise& noise, std::vector<Vec3>& normals, const Interrupt& interrupt) {
   return Grower(points, neighbours, outwards, noise, normals, interrupt).run();
 }
 

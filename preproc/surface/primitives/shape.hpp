@@ -18,12 +18,12 @@ std::string_view name_of(ShapeKind kind);
 // Unbounded. Lengths in model units.
 struct Shape {
   ShapeKind kind = ShapeKind::plane;
-  Vec3 origin = Vec3::Zero();   // on the plane; on the axis; the centre of a sphere or torus
-  Vec3 axis = Vec3::UnitZ();    // unit: the plane's normal, out of the material; else the axis (any for a sphere)
-  double radius = 0;            // of cylinder or sphere; of the cone at the origin; of the torus's centre circle
-  double tube_radius = 0;       // of the torus
-  double half_angle = 0;        // of the cone, radians: it widens along the axis where this is positive
-  bool hollow = false;          // the material is outside: a hole, the rounding of an inner edge
+  Vec3 origin = Vec3::Zero();  // on the plane; on the axis; the centre of a sphere or torus
+  Vec3 axis = Vec3::UnitZ();   // unit: the plane's normal, out of the material; else the axis (any for a sphere)
+  double radius = 0;           // of cylinder or sphere; of the cone at the origin; of the torus's centre circle
+  double tube_radius = 0;      // of the torus
+  double half_angle = 0;       // of the cone, radians: it widens along the axis where this is positive
+  bool hollow = false;         // the material is outside: a hole, the rounding of an inner edge
 
   // Along the outward normal: positive outside the material.
   double signed_distance(const Vec3& p) const;

@@ -43,15 +43,6 @@ class Patch {
     return shape;
   }
 
-  std::optional<Shape> plane_across(const Vec3& direction) const {
-    const double cosine = direction.dot(mean_normal_);
-    if (std::abs(cosine) < 0.9) return std::nullopt;
-    Shape shape;
-    shape.origin = middle_;
-    shape.axis = cosine < 0 ? Vec3(-direction) : direction;
-    return shape;
-  }
-
   // The radius r and centre c for which c + r n is nearest to the points.
   std::optional<Shape> sphere() const {
     double up = 0, down = 0;
@@ -212,6 +203,14 @@ class Patch {
   Vec3 middle_ = Vec3::Zero(), mean_normal_ = Vec3::Zero();
 };
 
+// Through the point, if its normal runs that way within about 15 degrees.
+std::optional<Shape> plane_across(const Vec3& direction, const OrientedPoints& cloud, std::uint32_t point) {
+  const double cosine = direction.dot(cloud.normals[point]);
+  if (std::abs(cosine) < 0.966) return std::nullopt;
+  return Shape{
+      .kind = ShapeKind::plane, .origin = cloud.points[point], .axis = cosine < 0 ? Vec3(-direction) : direction};
+}
+
 }  // namespace
 
 std::vector<ShapeGuess> guess_shapes(const OrientedPoints& cloud, std::span<const std::uint32_t> patch,
@@ -220,10 +219,13 @@ std::vector<ShapeGuess> guess_shapes(const OrientedPoints& cloud, std::span<cons
   if (patch.size() < 4) return guesses;
   const Patch view(cloud, patch);
   guesses.push_back({view.plane()});
+  // The seed's own: the patch of one on a narrow face reaches over its edges.
+  guesses.push_back(
+      {Shape{.kind = ShapeKind::plane, .origin = cloud.points[patch[0]], .axis = cloud.normals[patch[0]]}});
   if (const auto sphere = view.sphere()) guesses.push_back({*sphere});
   for (const KnownAxis& axis : axes) {
     if (!axis.origin)
-      if (const auto plane = view.plane_across(axis.direction)) guesses.push_back({*plane, true});
+      if (const auto plane = plane_across(axis.direction, cloud, patch[0])) guesses.push_back({*plane, true});
     if (!axis.origin)
       if (const auto cylinder = view.cylinder_along(axis.direction)) guesses.push_back({*cylinder, true});
     view.add_about(axis, true, guesses);

@@ -27,10 +27,10 @@ struct ShapeGuess {
   bool on_known_axis = false;
 };
 
-// The plane through the patch, the sphere whose radii its normals are, and about each likely direction of an axis a
-// cylinder, a cone and a torus. Likely are the known ones, and those in which the patch's normals change least, or about
-// which the centres of its curvature lie. Guesses that normals refuse (all alike, no axis that they meet) are left out.
-// O(axes * patch).
+// The plane through the patch, those through its first point, its seed, the sphere whose radii its normals are, and
+// about each likely direction of an axis a cylinder, a cone and a torus. Likely are the known ones, and those in which
+// the patch's normals change least, or about which the centres of its curvature lie. Guesses that normals refuse (all
+// alike, no axis that they meet) are left out. O(axes * patch).
 std::vector<ShapeGuess> guess_shapes(const OrientedPoints& cloud, std::span<const std::uint32_t> patch,
                                      std::span<const KnownAxis> axes);
 

@@ -113,8 +113,7 @@ bool leaves_noise(const OrientedPoints& cloud, const Neighbours& neighbours, con
   const std::vector<double> distance = distances(cloud, shape, which);
   const double rms = rms_of(distance);
   if (rms > most) return false;
-  if (shape.kind != ShapeKind::plane &&
-      rms_from_plane(cloud, which) < least_over_plane * std::max(rms, noise.sigma))
+  if (shape.kind != ShapeKind::plane && rms_from_plane(cloud, which) < least_over_plane * std::max(rms, noise.sigma))
     return false;
   // Far below the noise residuals are rounding.
   if (rms < 0.5 * noise.sigma) return true;

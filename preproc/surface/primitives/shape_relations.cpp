@@ -65,7 +65,8 @@ class Relater {
     for (FoundShape& found : set_.shapes) {
       if (!found.relations.tangent_to) continue;
       const auto [one, other] = *found.relations.tangent_to;
-      const auto blend = Blend::between(set_.shapes[one].shape, set_.shapes[other].shape, found.shape.hollow, found.shape.origin);
+      const auto blend =
+          Blend::between(set_.shapes[one].shape, set_.shapes[other].shape, found.shape.hollow, found.shape.origin);
       if (!blend) continue;
       found.shape = blend->with_radius(blend_radius(found.shape));
       found.freedom = blend->freedom();
@@ -117,13 +118,15 @@ class Relater {
   }
 
   bool merged(FoundShape& one, FoundShape& other) const {
-    if (one.shape.kind != other.shape.kind || one.shape.hollow != other.shape.hollow || !nearly_one(one.shape, other.shape))
+    if (one.shape.kind != other.shape.kind || one.shape.hollow != other.shape.hollow ||
+        !nearly_one(one.shape, other.shape))
       return false;
     FoundShape& larger = one.points.size() < other.points.size() ? other : one;
     Shape trial = larger.shape;
     ShapeFreedom freedom = larger.freedom;
     std::vector<Index> points;
-    std::merge(one.points.begin(), one.points.end(), other.points.begin(), other.points.end(), std::back_inserter(points));
+    std::merge(one.points.begin(), one.points.end(), other.points.begin(), other.points.end(),
+               std::back_inserter(points));
     if (!fit_shape(trial, freedom, cloud_.points, points, noise_.sigma).found) return false;
     if (lenient_cost(trial, points) - lenient_cost(one.shape, one.points) - lenient_cost(other.shape, other.points) >
         description_cost(trial.kind, one.freedom))
@@ -139,7 +142,8 @@ class Relater {
   bool nearly_one(const Shape& a, const Shape& b) const {
     if (a.kind == ShapeKind::plane) return a.axis.dot(b.axis) > 0.9;  // the points of both tell the rest
     const double reach = 0.2 * a.radius;
-    if ((a.kind == ShapeKind::sphere || a.kind == ShapeKind::torus) && (a.origin - b.origin).norm() > reach) return false;
+    if ((a.kind == ShapeKind::sphere || a.kind == ShapeKind::torus) && (a.origin - b.origin).norm() > reach)
+      return false;
     if (a.kind != ShapeKind::sphere && std::abs(a.axis.dot(b.axis)) < 0.9) return false;
     if (a.kind == ShapeKind::cone) return (b.origin - a.origin).cross(a.axis).norm() < reach;
     return std::abs(a.radius - b.radius) < reach &&
@@ -251,8 +255,10 @@ class Relater {
         const bool ball = found.shape.kind == ShapeKind::sphere;
         if (!ball && std::abs(leader.shape.axis.dot(found.shape.axis)) < parallel_cosine) continue;
         Shape trial = found.shape;
-        if (ball || trial.axis.dot(leader.shape.axis) > 0) trial.axis = leader.shape.axis;
-        else trial.axis = -leader.shape.axis;
+        if (ball || trial.axis.dot(leader.shape.axis) > 0)
+          trial.axis = leader.shape.axis;
+        else
+          trial.axis = -leader.shape.axis;
         trial.origin = leader.shape.origin + (found.shape.origin - leader.shape.origin).dot(trial.axis) * trial.axis;
         if ((trial.origin - found.shape.origin).norm() > 0.5 * found.shape.radius) continue;
         if (take_if_shorter(found, trial, freedom_on_axis(trial))) found.relations.coaxial_to = order_[j];
@@ -271,9 +277,8 @@ class Relater {
 
   void equal_radii() {
     std::vector<Index> by_points = order_;
-    std::stable_sort(by_points.begin(), by_points.end(), [&](Index a, Index b) {
-      return set_.shapes[a].points.size() > set_.shapes[b].points.size();
-    });
+    std::stable_sort(by_points.begin(), by_points.end(),
+                     [&](Index a, Index b) { return set_.shapes[a].points.size() > set_.shapes[b].points.size(); });
     for (std::size_t k = 1; k < by_points.size(); ++k) {
       FoundShape& found = set_.shapes[by_points[k]];
       found.relations.same_radius_as.reset();
@@ -286,7 +291,8 @@ class Relater {
   bool became_equal(FoundShape& found, const FoundShape& leader) const {
     // Nominal sizes closer than this are seldom two.
     constexpr double nearly = 0.1;
-    if (leader.shape.kind != found.shape.kind || leader.shape.hollow != found.shape.hollow || leader.relations.same_radius_as)
+    if (leader.shape.kind != found.shape.kind || leader.shape.hollow != found.shape.hollow ||
+        leader.relations.same_radius_as)
       return false;
     const double own = blend_radius(found.shape), wanted = blend_radius(leader.shape);
     const auto at = radius_change(found);
@@ -310,7 +316,8 @@ class Relater {
 
 }  // namespace
 
-void impose_relations(const OrientedPoints& cloud, const Neighbours& neighbours, const ShapeNoise& noise, ShapeSet& set) {
+void impose_relations(const OrientedPoints& cloud, const Neighbours& neighbours, const ShapeNoise& noise,
+                      ShapeSet& set) {
   Relater(cloud, neighbours, noise, set).run();
 }
 

@@ -11,6 +11,7 @@ namespace scan2fea {
 // degrees of a direction of more support, or of one square to two such, get it; pieces of cylinder and torus become
 // roundings tangent to their neighbours; axes become common; radii equal. O(shapes^2 + points).
 // Not guaranteed: that relations hold exactly after shapes are fitted again.
-void impose_relations(const OrientedPoints& cloud, const Neighbours& neighbours, const ShapeNoise& noise, ShapeSet& set);
+void impose_relations(const OrientedPoints& cloud, const Neighbours& neighbours, const ShapeNoise& noise,
+                      ShapeSet& set);
 
 }  // namespace scan2fea

@@ -18,7 +18,8 @@ void follow_sides(ShapeSet& set) {
   for (FoundShape& found : set.shapes) {
     if (!found.relations.tangent_to) continue;
     const auto [one, other] = *found.relations.tangent_to;
-    const auto blend = Blend::between(set.shapes[one].shape, set.shapes[other].shape, found.shape.hollow, found.shape.origin);
+    const auto blend =
+        Blend::between(set.shapes[one].shape, set.shapes[other].shape, found.shape.hollow, found.shape.origin);
     if (!blend) continue;
     found.shape = blend->with_radius(blend_radius(found.shape));
     if (!found.freedom.empty()) found.freedom = blend->freedom();
@@ -41,12 +42,16 @@ void drop_unpaid(const OrientedPoints& cloud, const Neighbours& neighbours, cons
 
 double description_cost(ShapeKind kind, const ShapeFreedom& freedom) {
   // A free piece of torus or cone can follow nearly any few points, and is rarer than a plane or cylinder.
-  const double rarity = freedom.size() < 2 ? 0 : kind == ShapeKind::torus ? 3 : kind == ShapeKind::cone ? 2 : kind == ShapeKind::sphere ? 1 : 0;
+  const double rarity = freedom.size() < 2          ? 0
+                        : kind == ShapeKind::torus  ? 3
+                        : kind == ShapeKind::cone   ? 2
+                        : kind == ShapeKind::sphere ? 1
+                                                    : 0;
   return freedom_cost * (static_cast<double>(freedom.size()) + rarity);
 }
 
-double total_cost(const OrientedPoints& cloud, const ShapeNoise& noise, const Shape& shape,
-                  const ShapeFreedom& freedom, std::span<const Index> points) {
+double total_cost(const OrientedPoints& cloud, const ShapeNoise& noise, const Shape& shape, const ShapeFreedom& freedom,
+                  std::span<const Index> points) {
   double cost = description_cost(shape.kind, freedom);
   for (const Index i : points) {
     const double of_point = cost_of(cloud, noise, shape, i);

@@ -50,8 +50,8 @@ inline constexpr double cost_without_shape = 20;
 double description_cost(ShapeKind kind, const ShapeFreedom& freedom);
 
 // Of a shape and its points together, those that it does not hold left without.
-double total_cost(const OrientedPoints& cloud, const ShapeNoise& noise, const Shape& shape,
-                  const ShapeFreedom& freedom, std::span<const std::uint32_t> points);
+double total_cost(const OrientedPoints& cloud, const ShapeNoise& noise, const Shape& shape, const ShapeFreedom& freedom,
+                  std::span<const std::uint32_t> points);
 
 // Takes shapes out of the set; `kept` per shape. Their points have none then, and relations to them end.
 void keep_shapes(ShapeSet& set, const std::vector<bool>& kept);
