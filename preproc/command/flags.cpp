@@ -222,8 +222,11 @@ void add_enrich_flags(CLI::App& command, EnrichOptions& options) {
       ->type_name("R");
   add_choice<Lifting>(
       command, "--lifting", options.lifting,
-      named({Lifting::hermite, Lifting::moving_least_squares, Lifting::modified_quadratic_shepard, Lifting::shepard}),
-      "How new points find their height");
+      named({Lifting::triharmonic, Lifting::moving_least_squares, Lifting::modified_quadratic_shepard, Lifting::hermite,
+             Lifting::shepard}),
+      "How new points find their height where no primitive tells it");
+  command.add_flag("--primitives,!--no-primitives", options.primitives,
+                   "Planes, cylinders, cones, spheres and tori of a part tell heights and creases");
   command
       .add_option_function<std::vector<double>>(
           "--enrich-ball",

@@ -1,40 +1,20 @@
 #include "preproc/surface/enrichment/enrich.hpp"
 
 #include "preproc/mesh/error.hpp"
-#include "preproc/surface/enrichment/importance.hpp"
-#include "preproc/surface/enrichment/side_normals.hpp"
-#include "preproc/surface/enrichment/surface_walk.hpp"
-#include "preproc/surface/kernel/delaunay_flips.hpp"
+#include "preproc/surface/enrichment/cut_creases.hpp"
+#include "preproc/surface/enrichment/insertion.hpp"
+#include "preproc/surface/enrichment/triharmonic_lift.hpp"
+#include "preproc/surface/enrichment/undo_folds.hpp"
 #include "preproc/surface/kernel/halfedge_mesh.hpp"
-#include "preproc/surface/placement/place_vertex.hpp"
-#include "quality/triangle_measures.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
-#include <utility>
-#include <vector>
 
 namespace scan2fea {
 namespace {
 
 using Index = HalfedgeMesh::Index;
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-// In R_s: the distance of a new point from the one that asks for it, and the least from any other; see the header.
-constexpr double placement_distance = 0.586;
-constexpr double separation = 0.414;
-
-// A vertex asks at most this often: sectors of 90 degrees are filled by four. Where more are asked for, the surface is
-// so bent that points put into a sector are not seen in it.
-constexpr std::uint8_t most_requests = 6;
-
-// Between the angles of coarse or noisy scans and the edges of parts.
-constexpr double crease_deg = 60;
-
-// Measured points whose side turns more than 60 degrees from the new point's tangent plane tell nothing of its height.
-constexpr double smallest_sample_cosine = 0.5;
 
 void check(const EnrichOptions& options) {
   const auto refuse = [](const char* what, double value, const char* limit) {
@@ -48,218 +28,72 @@ void check(const EnrichOptions& options) {
     refuse("empty sector out of range", options.empty_sector_deg, "60 to 180 degrees");
 }
 
-bool holds(const EnrichDomain& domain, const Vec3& p) {
-  if (const auto* box = std::get_if<BoundingBox>(&domain))
-    return (p.array() >= box->low.array()).all() && (p.array() <= box->high.array()).all();
-  if (const auto* ball = std::get_if<Ball>(&domain)) return (p - ball->centre).norm() <= ball->radius;
-  return true;
+Primitives primitives_of(const SurfaceMesh& mesh, const EnrichOptions& options, const Progress& progress) {
+  if (options.primitives) return find_primitives(mesh, {}, progress);
+  Primitives none;
+  none.labels.assign(mesh.vertices.size(), no_primitive);
+  return none;
 }
 
-class Enricher {
- public:
-  Enricher(const SurfaceMesh& mesh, const EnrichOptions& options)
-      : mesh_(mesh),
-        options_(options),
-        nearest_(mesh_),
-        normals_(mesh_, crease_deg),
-        importance_(mesh_, normals_),
-        original_count_(mesh_.vertex_slots()) {
-    for (Index v = 0; v < mesh_.vertex_slots(); ++v)
-      if (mesh_.is_alive(v) && holds(options.domain, mesh_.points[v])) domain_.push_back(v);
-    radius_ = options.sampling_radius ? *options.sampling_radius : default_radius(surface_area(mesh));
-    requests_.assign(mesh_.vertex_slots(), 0);
-    if (radius_ > 0) {
-      const double packed = 2 * equilateral_area * separation * separation * radius_ * radius_;  // of each point
-      const double bound = std::min(2 * surface_area(mesh) / packed + 100, 1e9);
-      most_new_vertices_ = std::min(options.most_new_vertices, static_cast<std::size_t>(bound));
-    }
+// Noise of a twentieth of the spacing is held by 5 (triharmonic_lift.hpp), less noise more firmly: its square is what
+// the energy of the bends that it makes goes with. Below a fiftieth points stay where they are.
+double hold_against(const Primitives& found) {
+  constexpr double usual_noise = 0.05, usual_hold = 5, least_noise = 0.02;
+  const double noise = found.spacing > 0 ? found.noise / found.spacing : 0;
+  return noise > least_noise ? usual_hold * std::pow(usual_noise / noise, 2) : 0;
+}
+
+void lift_the_rest(HalfedgeMesh& mesh, const SurfaceLabels& labels, Index original, const Primitives& found) {
+  std::vector<bool> free(mesh.vertex_slots(), false), measured(mesh.vertex_slots(), false);
+  for (Index v = 0; v < mesh.vertex_slots(); ++v) {
+    if (labels.of(v).size() > 0) continue;
+    (v < original ? measured : free)[v] = true;
   }
+  triharmonic_lift(mesh, free, measured, {.hold = hold_against(found)});
+}
 
-  EnrichResult run(const Progress& progress) {
-    result_.sampling_radius = radius_;
-    const ImportanceOptions condition{radius_, options_.most_neighbours, options_.empty_sector_deg};
-    std::vector<Index> waiting = domain_;
-    bool inserted = true;
-    while (inserted && !waiting.empty() && radius_ > 0) {
-      progress("enrich", 1 - static_cast<double>(waiting.size()) / static_cast<double>(domain_.size()));
-      ++result_.rounds;
-      inserted = false;
-      const std::size_t known = domain_.size();
-      std::vector<Index> not_content;
-      for (const Index v : waiting) {
-        const std::vector<Vec3> gaps = importance_.empty_sectors(v, condition);
-        if (gaps.empty()) continue;
-        not_content.push_back(v);
-        if (result_.added >= most_new_vertices_ || requests_[v] == most_requests) continue;
-        if (!fill_one_of(v, gaps)) continue;
-        ++requests_[v];
-        inserted = true;
-      }
-      waiting = std::move(not_content);
-      waiting.insert(waiting.end(), domain_.begin() + static_cast<std::ptrdiff_t>(known), domain_.end());
-    }
-    result_.domain_vertices = domain_.size();
-    for (const Index v : domain_) result_.content += importance_.empty_sectors(v, condition).empty();
-    if (result_.content < result_.domain_vertices)
-      result_.stop = result_.added < options_.most_new_vertices ? EnrichStop::no_room : EnrichStop::too_many_vertices;
-    return result_;
-  }
-
-  SurfaceMesh take() const { return mesh_.to_surface(); }
-
- private:
-  // Where half of the points crowd in a small part of the surface the median tells about that part alone; as many
-  // points spread evenly, in equilateral triangles, would have the other spacing.
-  double default_radius(double area) {
-    const auto points = static_cast<double>(std::max<std::size_t>(1, original_count_));
-    return std::max(1.5 * importance_.median_spacing(domain_), equilateral_edge(area, 2 * points));
-  }
-
-  bool fill_one_of(Index v, const std::vector<Vec3>& bisectors) {
-    for (const Vec3& direction : bisectors) {
-      const auto base = walk_straight(mesh_, v, normals_.mean(v), direction, placement_distance * radius_);
-      if (base && insert(*base)) return true;
-    }
-    return false;
-  }
-
-  // Refused where another point is too near, or where a border edge would have to be split.
-  bool insert(SurfacePoint base) {
-    // Close to an edge the point goes onto it, so that no face of almost no height is made. On a thinned Horse, at 0.01
-    // the smallest angle falls from 3.5 to 0.2 degrees; at 0.2 the mean edge ratio rises from 1.444 to 1.465.
-    Eigen::Index corner;
-    const bool on_edge = base.weights.minCoeff(&corner) < 0.1;
-    const Index edge = 3 * base.face + static_cast<Index>(corner + 1) % 3;
-    if (on_edge) {
-      if (mesh_.is_border(edge)) return false;
-      base.weights[corner] = 0;
-      base.weights /= base.weights.sum();
-    }
-    const Triangle t = mesh_.triangle(base.face);
-    Vec3 point = position(mesh_, base);
-    const Vec3 normal = normal_at(base);
-    if (!holds(options_.domain, point) || !has_room(t, point, normal, HalfedgeMesh::none)) return false;
-
-    const bool on_crease = on_edge && normals_.is_crease(mesh_, edge);
-    if (on_crease)
-      normals_.add(normal, normal_at(across(edge, base)));
+void count_moves(const HalfedgeMesh& mesh, const std::vector<Vec3>& bases, Index original, EnrichResult& result) {
+  for (Index v = 0; v < mesh.vertex_slots(); ++v) {
+    const double move = (mesh.points[v] - bases[v]).norm();
+    if (v < original)
+      result.largest_correction = std::max(result.largest_correction, move);
     else
-      normals_.add(normal);
-    const Index v = on_edge ? mesh_.split_edge(edge, point) : mesh_.split_face(base.face, point);
-    requests_.push_back(0);
-    domain_.push_back(v);
-    ++result_.added;
-    restore_delaunay(mesh_, v);
-    if (on_crease) {
-      // The two sides tell two heights, and neither is the crease's.
-      ++result_.not_lifted;
-      return true;
-    }
-    if (options_.place_by_entropy) point = mesh_.points[v] = placed_by_entropy(v);
-    lift(v, t, point);
-    return true;
+      result.largest_height = std::max(result.largest_height, move);
   }
+}
 
-  // The same point of an edge, seen from the face beyond it.
-  SurfacePoint across(Index edge, const SurfacePoint& base) const {
-    const Index o = mesh_.opposite(edge);
-    SurfacePoint other{HalfedgeMesh::face(o), Vec3::Zero()};
-    other.weights[o % 3] = base.weights[HalfedgeMesh::next(edge) % 3];
-    other.weights[HalfedgeMesh::next(o) % 3] = base.weights[edge % 3];
-    return other;
-  }
-
-  Vec3 normal_at(const SurfacePoint& base) const {
-    const Triangle t = mesh_.triangle(base.face);
-    const Vec3 face = mesh_.area_vector(base.face).normalized();
-    Vec3 mean = Vec3::Zero();
-    for (std::size_t i = 0; i < 3; ++i) mean += base.weights[static_cast<int>(i)] * normals_.facing(t[i], face);
-    mean.normalize();
-    // More than 72 degrees off, the mean of the corners' normals gives no tangent plane of this face. It seldom is:
-    // with no such test a thinned Horse comes out the same.
-    return mean.dot(face) > 0.3 ? mean : face;
-  }
-
-  bool has_room(const Triangle& seeds, const Vec3& point, const Vec3& normal, Index except) {
-    bool room = true;
-    nearest_.search(
-        seeds, point, separation * radius_,
-        [&](Index w) { return w != except && normals_.mean(w).dot(normal) > smallest_neighbour_cosine; },
-        [&](Index, double) { return room = false; });
-    return room;
-  }
-
-  Vec3 placed_by_entropy(Index v) {
-    std::vector<Vec3> link;
-    mesh_.for_each_neighbour(v, [&](Index w) { link.push_back(mesh_.points[w]); });
-    const PlaceVertexResult placed = place_vertex({mesh_.points[v], link}, star_normal(link));
-    const Triangle t = mesh_.triangle(HalfedgeMesh::face(mesh_.outgoing(v)));
-    return placed.feasible && has_room(t, placed.position, normals_.mean(v), v) ? placed.position : mesh_.points[v];
-  }
-
-  // To the height that the measured points around tell, unless it is not credible or would fold the star.
-  void lift(Index v, const Triangle& seeds, const Vec3& base) {
-    // Ten samples give thirty equations for six unknowns, or ten without normals. They must lie on all sides, since at
-    // the rim of a gap the nearest points all lie on one side of it; sixty bound the cost.
-    // Where a thousand points were met, nearly all of them new, the measured ones are too far to tell.
-    constexpr std::size_t wanted_samples = 10, most_samples = 60, most_visits = 1000;
-    const Vec3 normal = normals_.mean(v);
-    FilledSectors sectors(base, normal);
-    samples_.clear();
-    double farthest = 0, closest = infinity;
-    std::size_t visits = 0;
-    nearest_.search(
-        seeds, base, infinity, [&](Index w) { return normals_.facing(w, normal).dot(normal) > smallest_sample_cosine; },
-        [&](Index w, double distance) {
-          if (++visits > most_visits) return false;
-          if (w >= original_count_) return true;
-          samples_.push_back({mesh_.points[w], normals_.facing(w, normal)});
-          sectors.add(mesh_.points[w]);
-          farthest = std::sqrt(distance);
-          closest = std::min(closest, farthest);
-          return samples_.size() < most_samples && (samples_.size() < wanted_samples || !sectors.surrounded());
-        });
-    // Wendland's weight is 0 at the radius, where the farthest sample would not count; with twice the radius the far
-    // ones count so much that the RMS distance of a thinned Horse grows by 3 %.
-    const double height = lifted_height(options_.lifting, samples_, base, normal, 1.2 * farthest);
-    // A height of 0.8 of the way to the nearest sample is a slope of 39 degrees: beyond, it is not credible. On thinned
-    // scans of the Horse and of fandisk, 0.3 changes the RMS distance by -2 and +1 %, 3 by less than 1 %.
-    const Vec3 place = base + height * normal;
-    if (!(std::abs(height) <= 0.8 * closest) || folds(v, place) || !has_room(seeds, place, normal, v)) {
-      ++result_.not_lifted;
-      return;
-    }
-    mesh_.points[v] = place;
-    result_.largest_height = std::max(result_.largest_height, std::abs(height));
-  }
-
-  bool folds(Index v, const Vec3& place) const {
-    std::vector<Vec3> link;
-    mesh_.for_each_neighbour(v, [&](Index w) { link.push_back(mesh_.points[w]); });
-    return !is_star_feasible({place, link}, star_normal(link), PlaceVertexOptions{}.smallest_normal_cosine);
-  }
-
-  HalfedgeMesh mesh_;
-  const EnrichOptions& options_;
-  NearestOnSurface nearest_;
-  SideNormals normals_;  // of the scan at its vertices; of a new one, interpolated where it was put
-  Importance importance_;
-  std::size_t original_count_;
-  double radius_ = 0;
-  std::size_t most_new_vertices_ = 0;  // the option, or twice what packing leaves room for
-  std::vector<std::uint8_t> requests_;
-  std::vector<Index> domain_;
-  std::vector<SurfaceSample> samples_;
-  EnrichResult result_;
-};
+std::vector<FeatureEdge> creases_of(const HalfedgeMesh& mesh, const SurfaceLabels& labels) {
+  std::vector<FeatureEdge> edges;
+  for (Index h = 0; h < 3 * mesh.face_slots(); ++h)
+    if (mesh.is_face_alive(HalfedgeMesh::face(h)) && !mesh.is_border(h) && h < mesh.opposite(h) && labels.is_crease(h))
+      edges.push_back(feature_edge(mesh.origin(h), mesh.target(h)));
+  std::sort(edges.begin(), edges.end());
+  return edges;
+}
 
 }  // namespace
 
 EnrichResult enrich(SurfaceMesh& mesh, const EnrichOptions& options, const Progress& progress) {
   check(options);
-  Enricher enricher(mesh, options);
-  const EnrichResult result = enricher.run(progress);
-  mesh = enricher.take();
+  const Primitives found = primitives_of(mesh, options, progress);
+  HalfedgeMesh surface(mesh);
+  SurfaceLabels labels(surface, found);
+  const auto original = static_cast<Index>(surface.vertex_slots());
+  std::vector<Vec3> bases = surface.points;
+  const CreaseCutResult cut = cut_creases(surface, labels);
+  bases.insert(bases.end(), cut.bases.begin(), cut.bases.end());
+  Insertion inserted = insert_points(surface, labels, original, options, progress);
+  bases.insert(bases.end(), inserted.bases.begin(), inserted.bases.end());
+  EnrichResult result = std::move(inserted.result);
+  result.added += cut.bases.size();
+  if (result.added == 0) return result;
+  progress("enrich", 0.8);
+  if (options.lifting == Lifting::triharmonic) lift_the_rest(surface, labels, original, found);
+  result.not_lifted += undo_folds(surface, labels, bases);
+  count_moves(surface, bases, original, result);
+  result.creases = creases_of(surface, labels);
+  result.primitives = found.list;
+  mesh = surface.to_surface();
   return result;
 }
 

@@ -1,7 +1,7 @@
-// Enrichment: new points where the scanner left too few.
+// Enrichment: new points where the scanner left too few, and creases where it hardly ever puts any.
 // Source: [1], section 2 (README.md lists the sources). A point with at most K neighbours within the sampling radius
 // R_s, and an empty sector of at least 90 degrees among them (importance.hpp), gets a new point on the sector's
-// bisector, which is lifted from the tangent plane to the surface. Three things differ from the letter of [1], because
+// bisector, which is lifted from the tangent plane to the surface. Four things differ from the letter of [1], because
 // measuring asked for them:
 //  - The new point's base lies on the triangulation, at 0.586 R_s, and is refused nearer than 0.414 R_s to another
 //    point. 0.414 R_s is the radius of the largest circle that fits into a sector of 90 degrees and radius R_s, and
@@ -9,16 +9,21 @@
 //    the number of points.
 //  - It is inserted into the mesh (1 to 3, or an edge split, then Delaunay flips), so that topology and borders stay
 //    and neighbours are found along the surface.
-//  - Its height comes from measured points alone, never from other new points.
+//  - On a part its height is that of the plane, cylinder or other primitive that the measured points around lie on
+//    (find_primitives.hpp); before, the creases and corners are put back where these meet (cut_creases.hpp).
+//  - Elsewhere it comes from the smoothest surface through the measured points (triharmonic_lift.hpp).
 #pragma once
 
 #include "preproc/mesh/progress.hpp"
 #include "preproc/mesh/surface_mesh.hpp"
+#include "preproc/surface/kernel/adjacency.hpp"
 #include "preproc/surface/placement/lifting.hpp"
+#include "preproc/surface/primitives/find_primitives.hpp"
 
 #include <cstddef>
 #include <optional>
 #include <variant>
+#include <vector>
 
 namespace scan2fea {
 
@@ -27,9 +32,9 @@ struct WholeSurface {};
 using EnrichDomain = std::variant<WholeSurface, BoundingBox, Ball>;
 
 struct EnrichOptions {
-  // R_s, the wanted spacing, model units, > 0. Not given: 1.5 times the median distance of the sixth neighbour in the
-  // domain, which levels out an uneven scan (1.0 times triples the points for little accuracy), and at least the
-  // spacing of as many points spread evenly, which bounds the growth where most points crowd in one place. Before a
+  // R_s, the wanted spacing, model units, > 0. Not given: the median distance of the sixth neighbour in the domain,
+  // which levels out an uneven scan and about triples its points, and at least the spacing of as many points spread
+  // evenly, which bounds the growth where most points crowd in one place. Before a
   // simplification give the edge length that it will be asked for: then only places where the scan's own spacing
   // exceeds what the mesh needs are enriched, and none where there are points enough.
   std::optional<double> sampling_radius = {};
@@ -42,11 +47,12 @@ struct EnrichOptions {
   // Content too if no sector of the tangent plane as wide as this is empty. Degrees, 60 to 180.
   double empty_sector_deg = 90;
 
-  // How the height is found. Distance of the new points to the truth over that of the flat triangulation, on an uneven
-  // scan of the Horse / of a part with sharp edges: hermite 0.62 / 0.81; before creases were told apart, moving least
-  // squares 0.77 / 1.19, modified quadratic Shepard 0.77 / 1.13, the Shepard of [1] 1.4 / 1.6 against hermite's 0.60 /
-  // 0.88.
-  Lifting lifting = Lifting::hermite;
+  // Whether a part's primitives are looked for. They are used where they describe it (see find_primitives.hpp); organic
+  // scans are the same without.
+  bool primitives = true;
+
+  // How the height is found where no primitive tells it. tests/benchmark/README.md has the errors of each.
+  Lifting lifting = Lifting::triharmonic;
 
   // Move each new point, before it is lifted, to where its star's Phi is best ([1] uses its entropy there). The
   // place on the bisector is nearly as good already, and closer to the truth after lifting: off.
@@ -64,21 +70,27 @@ enum class EnrichStop {
 
 struct EnrichResult {
   double sampling_radius = 0;       // R_s as used
-  std::size_t added = 0;            // new vertices, after the original ones in the mesh
-  std::size_t not_lifted = 0;       // of these: left on the triangulation, because their height was not credible
+  std::size_t added = 0;          // new vertices, after the original ones in the mesh
+  std::size_t on_primitives = 0;  // of these: put onto a primitive, beside those on creases
+  std::size_t not_lifted = 0;     // vertices left on the triangulation, or put back there, because faces turned over
   std::size_t domain_vertices = 0;  // at the end
   std::size_t content = 0;          // of these: meet the condition
-  double largest_height = 0;        // model units
+  double largest_height = 0;        // of a new vertex over the triangulation, model units
+  double largest_correction = 0;    // of a measured one, model units
+  std::vector<FeatureEdge> creases;   // edges of the mesh that were restored, sorted
+  std::vector<Primitive> primitives;  // that the scan was found to consist of
   int rounds = 0;
   EnrichStop stop = EnrichStop::all_content;
 };
 
 // Precondition: `mesh` is an oriented manifold (NotMeshable otherwise); it may have borders. Original vertices keep
-// place and order (vertices that no face uses are dropped), borders their edges, the surface its topology; edges are
-// flipped near new vertices only, and never across creases of more than 40 degrees. Throws WrongUsage for options out
-// of range. On any throw `mesh` is as it was. Deterministic, one thread; O((n + m) log n) for n vertices and m new
-// ones, about 10 microseconds a new vertex. Not guaranteed: that sharp edges are restored (points on both sides of one
-// are lifted from both); that what a gap of the scan hid is known; absence of self-intersections.
+// their order (vertices that no face uses are dropped), borders their edges, the surface its topology. They keep their
+// places, too, but for those on primitives (by at most 4 of its sigmas, or an eighth of an edge onto a crease) and those
+// of noisy scans, which are smoothed. Edges are flipped near new vertices only, and never across creases. Faces that a
+// move turned over or drove through others are put back. Where nothing is missing nothing changes. Throws WrongUsage for
+// options out of range. On any throw `mesh` is as it was. Deterministic, one thread; O((n + m) log n) for n vertices and
+// m new ones, about 100 microseconds a new vertex. Not guaranteed: that what a gap of the scan hid is known; that a
+// surface that crossed itself before does not afterwards.
 EnrichResult enrich(SurfaceMesh& mesh, const EnrichOptions& options = {}, const Progress& progress = {});
 
 }  // namespace scan2fea

@@ -52,6 +52,7 @@ std::size_t restore_delaunay(HalfedgeMesh& mesh, Index v, const DelaunayFlipLimi
     if (!should_flip(mesh, h, crease_cosine)) continue;
     if (std::binary_search(limits.kept.begin(), limits.kept.end(), feature_edge(mesh.origin(h), mesh.target(h))))
       continue;
+    if (limits.may_flip && !limits.may_flip(h)) continue;
     const Index o = mesh.opposite(h);
     mesh.flip(h);
     ++flips;

@@ -6,6 +6,7 @@
 #include "preproc/surface/kernel/adjacency.hpp"
 #include "preproc/surface/kernel/halfedge_mesh.hpp"
 
+#include <functional>
 #include <span>
 
 namespace scan2fea {
@@ -16,6 +17,8 @@ struct DelaunayFlipLimits {
   double crease_deg = 40;
   // Edges that stay whatever their angle, sorted.
   std::span<const FeatureEdge> kept;
+  // Edges for which it is false stay as well.
+  std::function<bool(HalfedgeMesh::Index)> may_flip = {};
 };
 
 // Starts from the edges opposite to v and goes on where a flip has changed an edge's faces. Returns the number of

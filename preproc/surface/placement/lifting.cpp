@@ -15,11 +15,12 @@ namespace {
 // Cosine of 75 degrees.
 constexpr double smallest_normal_cosine = 0.26;
 
-constexpr NameTable<Lifting, 4> names{{
-    {Lifting::shepard, "shepard"},
-    {Lifting::modified_quadratic_shepard, "modified-quadratic-shepard"},
-    {Lifting::moving_least_squares, "moving-least-squares"},
+constexpr NameTable<Lifting, 5> names{{
+    {Lifting::triharmonic, "triharmonic"},
+    {Lifting::moving_least_squares, "mls"},
+    {Lifting::modified_quadratic_shepard, "quadratic-shepard"},
     {Lifting::hermite, "hermite"},
+    {Lifting::shepard, "shepard"},
 }};
 
 // A sample seen in the tangent plane at the base. Lengths are over the radius, so that the equations are well scaled.
@@ -154,6 +155,8 @@ double lifted_height(Lifting lifting, std::span<const SurfaceSample> samples, co
   const double cosine = lifting == Lifting::shepard ? -2 : smallest_normal_cosine;
   const std::vector<Height> heights = heights_over_plane(samples, base, normal, radius, cosine);
   switch (lifting) {
+    case Lifting::triharmonic:
+      return 0;
     case Lifting::shepard:
       return radius * shepard(heights);
     case Lifting::modified_quadratic_shepard:

@@ -12,13 +12,14 @@
 namespace scan2fea {
 
 enum class Lifting {
+  triharmonic,                 // the smoothest surface through all points at once: see enrichment/triharmonic_lift.hpp
   shepard,                     // that of [1]: the weighted mean of the heights; pulls towards flat steps
   modified_quadratic_shepard,  // the weighted mean of quadrics through the samples
   moving_least_squares,        // one quadric, fitted with weights that interpolate
   hermite,                     // the same, fitted to the samples' normals as well
 };
 
-// "shepard", "modified-quadratic-shepard", "moving-least-squares", "hermite".
+// "triharmonic", "mls", "quadratic-shepard", "hermite", "shepard".
 std::string_view name_of(Lifting lifting);
 
 // A measured point and the surface's unit normal there.
@@ -35,7 +36,8 @@ double wendland(double r);
 // not a height over this plane there. 0 where no sample counts.
 // They interpolate: at a sample's foot the height is the sample's (`shepard` alone does not, its weight being finite).
 // Where the samples do not settle a quadric (too few, or in line), the curvature that they leave open is taken as 0.
-// O(n) for n samples, O(n^2) for modified_quadratic_shepard. Not guaranteed: a bound on the height. Callers that
+// O(n) for n samples, O(n^2) for modified_quadratic_shepard. 0 for `triharmonic`,
+// which no single point tells. Not guaranteed: a bound on the height. Callers that
 // extrapolate limit it.
 double lifted_height(Lifting lifting, std::span<const SurfaceSample> samples, const Vec3& base, const Vec3& normal,
                      double radius);

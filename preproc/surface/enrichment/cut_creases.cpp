@@ -1,0 +1,186 @@
+#include "preproc/surface/enrichment/cut_creases.hpp"
+
+#include "preproc/surface/kernel/delaunay_flips.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+namespace scan2fea {
+namespace {
+
+using Index = HalfedgeMesh::Index;
+
+// Of an edge: a crease nearer to its end goes through the end, so that no sliver is made.
+constexpr double merged_share = 0.12;
+// Of an edge: how far beside it the meeting of its primitives may lie. The chord of a right-angled corner is off by half
+// of itself at most.
+constexpr double farthest_share = 0.75;
+// Cosines: a face may lean so far from its primitive's normal, or from what it was.
+constexpr double least_on_primitive = 0.1, least_to_before = 0.2;
+
+struct Meeting {
+  Vec3 point = Vec3::Zero();
+  Vec3 base = Vec3::Zero();  // on the edge
+  LabelSet labels;
+};
+
+class Cutter {
+ public:
+  Cutter(HalfedgeMesh& mesh, SurfaceLabels& labels) : mesh_(mesh), labels_(labels) {}
+
+  CreaseCutResult run() {
+    snap();
+    merge_near_ends();
+    // Splitting leaves edges between a crease and a third primitive, where a corner lies.
+    for (int pass = 0; pass < 3; ++pass)
+      if (!split_mixed_edges()) break;
+    return result_;
+  }
+
+ private:
+  void snap() {
+    for (Index v = 0; v < mesh_.vertex_slots(); ++v) {
+      if (!mesh_.is_alive(v) || labels_.of(v).size() != 1) continue;
+      const Vec3 foot = labels_.shape(*labels_.of(v).begin()).foot(mesh_.points[v]);
+      result_.snapped += move_if_sound(v, foot);
+    }
+  }
+
+  bool move_if_sound(Index v, const Vec3& place) {
+    const Vec3 before = mesh_.points[v];
+    std::vector<Vec3> normals;
+    mesh_.for_each_outgoing(v, [&](Index h) { normals.push_back(mesh_.area_vector(HalfedgeMesh::face(h)).normalized()); });
+    mesh_.points[v] = place;
+    bool sound = true;
+    std::size_t i = 0;
+    mesh_.for_each_outgoing(v, [&](Index h) {
+      sound = sound && mesh_.area_vector(HalfedgeMesh::face(h)).normalized().dot(normals[i++]) > least_to_before;
+    });
+    if (!sound) mesh_.points[v] = before;
+    return sound;
+  }
+
+  bool is_mixed(Index h) const {
+    const LabelSet& a = labels_.of(mesh_.origin(h));
+    const LabelSet& b = labels_.of(mesh_.target(h));
+    if (a.size() == 0 || b.size() == 0) return false;
+    return std::none_of(a.begin(), a.end(), [&](std::uint32_t label) { return b.holds(label); });
+  }
+
+  // Where two primitives, or the three of a crease and a face, meet near an edge. For a crease both ends must lie on the
+  // same side of the other's primitive: inside at an outer edge, outside at an inner one.
+  std::optional<Meeting> meeting_on(Index h) const {
+    const Index u = mesh_.origin(h), v = mesh_.target(h);
+    const LabelSet& a = labels_.of(u);
+    const LabelSet& b = labels_.of(v);
+    const Vec3 &p = mesh_.points[u], &q = mesh_.points[v];
+    const double length = (q - p).norm();
+    if (a.size() + b.size() == 3) {
+      Meeting corner{.point = 0.5 * (p + q), .base = 0.5 * (p + q), .labels = a};
+      for (const std::uint32_t label : b) corner.labels.add(label);
+      if (const auto at = labels_.meeting(corner.labels, corner.point); at && (*at - corner.point).norm() < length) {
+        corner.point = *at;
+        return corner;
+      }
+    }
+    std::optional<Meeting> best;
+    double nearest = farthest_share * length;
+    for (const std::uint32_t la : a)
+      for (const std::uint32_t lb : b) {
+        const double of_p = labels_.shape(lb).signed_distance(p), of_q = labels_.shape(la).signed_distance(q);
+        if (!(of_p * of_q > 0)) continue;
+        const double t = std::abs(of_p) / (std::abs(of_p) + std::abs(of_q));
+        const Vec3 start = (1 - t) * p + t * q;
+        LabelSet both(la);
+        both.add(lb);
+        const auto at = labels_.meeting(both, start);
+        if (!at || !((*at - start).norm() < nearest)) continue;
+        nearest = (*at - start).norm();
+        best = Meeting{*at, start, both};
+      }
+    return best;
+  }
+
+  // Vertices that are all but on a crease become its own.
+  void merge_near_ends() {
+    for (Index v = 0; v < mesh_.vertex_slots(); ++v) {
+      if (!mesh_.is_alive(v) || labels_.of(v).size() != 1) continue;
+      std::optional<Meeting> nearest;
+      double least = 1;
+      mesh_.for_each_outgoing(v, [&](Index h) {
+        if (!is_mixed(h) || labels_.of(mesh_.target(h)).size() != 1) return;
+        const auto meeting = meeting_on(h);
+        if (!meeting) return;
+        const double share = (meeting->point - mesh_.points[v]).norm() / (mesh_.points[mesh_.target(h)] - mesh_.points[v]).norm();
+        if (share >= merged_share || share >= least) return;
+        least = share;
+        nearest = meeting;
+      });
+      if (!nearest) continue;
+      const auto at = labels_.meeting(nearest->labels, mesh_.points[v]);
+      if (!at || !((*at - mesh_.points[v]).norm() <= (nearest->point - mesh_.points[v]).norm() * 1.0001)) continue;
+      if (!move_if_sound(v, *at)) continue;
+      labels_.set(v, nearest->labels);
+      ++result_.moved;
+    }
+  }
+
+  bool split_mixed_edges() {
+    std::vector<std::array<Index, 2>> mixed;
+    for (Index h = 0; h < 3 * mesh_.face_slots(); ++h)
+      if (mesh_.is_face_alive(HalfedgeMesh::face(h)) && !mesh_.is_border(h) && h < mesh_.opposite(h) && is_mixed(h))
+        mixed.push_back({mesh_.origin(h), mesh_.target(h)});
+    const std::size_t before = result_.bases.size();
+    for (const auto& [a, b] : mixed) {
+      const Index h = mesh_.find_halfedge(a, b);
+      if (h == HalfedgeMesh::none || mesh_.is_border(h)) continue;
+      if (const auto meeting = meeting_on(h); meeting && stays_sound(h, *meeting)) split(h, *meeting);
+    }
+    return result_.bases.size() > before;
+  }
+
+  // The four faces that a split makes.
+  bool stays_sound(Index h, const Meeting& meeting) const {
+    for (const Index side : {h, mesh_.opposite(h)}) {
+      const Index a = mesh_.origin(side), b = mesh_.target(side), c = mesh_.origin(HalfedgeMesh::prev(side));
+      const Vec3 before = mesh_.area_vector(HalfedgeMesh::face(side)).normalized();
+      if (!is_sound(a, c, meeting, before, true) || !is_sound(b, c, meeting, before, false)) return false;
+    }
+    return true;
+  }
+
+  bool is_sound(Index end, Index apex, const Meeting& meeting, const Vec3& before, bool end_first) const {
+    const Vec3 &p = mesh_.points[end], &q = mesh_.points[apex];
+    Vec3 area = (q - p).cross(meeting.point - p);
+    if (end_first) area = -area;
+    const Vec3 normal = area.normalized();
+    for (const std::uint32_t label : labels_.of(end))
+      if (labels_.of(apex).holds(label) && meeting.labels.holds(label))
+        return labels_.shape(label).normal((p + q + meeting.point) / 3).dot(normal) > least_on_primitive;
+    return normal.dot(before) > least_to_before;
+  }
+
+  void split(Index h, const Meeting& meeting) {
+    result_.bases.push_back(meeting.base);
+    const Index v = mesh_.split_edge(h, meeting.point);
+    labels_.add(meeting.labels);
+    DelaunayFlipLimits limits;
+    limits.may_flip = [&](Index edge) { return labels_.may_flip(edge) && labels_.of_face(HalfedgeMesh::face(edge)) != no_primitive; };
+    restore_delaunay(mesh_, v, limits);
+  }
+
+  HalfedgeMesh& mesh_;
+  SurfaceLabels& labels_;
+  CreaseCutResult result_;
+};
+
+}  // namespace
+
+CreaseCutResult cut_creases(HalfedgeMesh& mesh, SurfaceLabels& labels) {
+  return Cutter(mesh, labels).run();
+}
+
+}  // namespace scan2fea
