@@ -21,7 +21,7 @@
 namespace scan2fea {
 namespace {
 
-constexpr Lifting all_liftings[] = {Lifting::shepard, Lifting::modified_quadratic_shepard,
+constexpr Lifting all_liftings[] = {Lifting::triharmonic, Lifting::shepard, Lifting::modified_quadratic_shepard,
                                     Lifting::moving_least_squares, Lifting::hermite};
 
 // A surface known by its equation: where the nearest point of it is, and where it was scanned badly.
@@ -93,9 +93,9 @@ double content_share(const SurfaceMesh& mesh, double radius, Vec3 (*project)(con
 TEST(Enrich, LiftedPointsAreCloserToTheTruthThanTheTriangulation) {
   for (const Scan& scan : scans())
     for (const Lifting lifting :
-         {Lifting::hermite, Lifting::moving_least_squares, Lifting::modified_quadratic_shepard}) {
+         {Lifting::triharmonic, Lifting::hermite, Lifting::moving_least_squares, Lifting::modified_quadratic_shepard}) {
       SurfaceMesh mesh = scan.mesh;
-      const EnrichResult result = enrich(mesh, {.lifting = lifting});
+      const EnrichResult result = enrich(mesh, {.primitives = false, .lifting = lifting});
       ASSERT_GT(result.added, 100U);
       const auto points = new_points(scan.mesh, mesh);
       EXPECT_LT(rms_to_truth(scan, points), 0.3 * rms_to_truth(scan, flat(scan.mesh, points)))
@@ -106,8 +106,8 @@ TEST(Enrich, LiftedPointsAreCloserToTheTruthThanTheTriangulation) {
 TEST(Enrich, ThePapersShepardAddsNoTruth) {
   for (const Scan& scan : scans()) {
     SurfaceMesh plain = scan.mesh, sound = scan.mesh;
-    enrich(plain, {.lifting = Lifting::shepard});
-    enrich(sound);
+    enrich(plain, {.primitives = false, .lifting = Lifting::shepard});
+    enrich(sound, {.primitives = false});
     EXPECT_GT(rms_to_truth(scan, new_points(scan.mesh, plain)), 3 * rms_to_truth(scan, new_points(scan.mesh, sound)));
   }
 }
@@ -142,7 +142,8 @@ TEST(Enrich, TopologyAndOriginalVerticesStay) {
     for (const Lifting lifting : all_liftings)
       for (const bool by_entropy : {false, true}) {
         SurfaceMesh mesh = scan.mesh;
-        const EnrichResult result = enrich(mesh, {.lifting = lifting, .place_by_entropy = by_entropy});
+        const EnrichResult result =
+            enrich(mesh, {.primitives = false, .lifting = lifting, .place_by_entropy = by_entropy});
         const SurfaceValidity before = check_validity(scan.mesh), after = check_validity(mesh);
         EXPECT_TRUE(after.closed() && after.manifold());
         EXPECT_EQ(after.components, before.components);
@@ -158,7 +159,7 @@ TEST(Enrich, TopologyAndOriginalVerticesStay) {
 TEST(Enrich, AnEvenScanNeedsNothing) {
   SurfaceMesh mesh = analytic::sphere(1, 3);
   const std::size_t before = mesh.triangles.size();
-  const EnrichResult result = enrich(mesh);
+  const EnrichResult result = enrich(mesh, {.sampling_radius = 1.5 * mean_edge_length(mesh)});
   EXPECT_EQ(result.added, 0U);
   EXPECT_EQ(result.stop, EnrichStop::all_content);
   EXPECT_EQ(mesh.triangles.size(), before);

@@ -220,11 +220,10 @@ void add_enrich_flags(CLI::App& command, EnrichOptions& options) {
                   "R_s, the spacing that the points should have, model units; by default the scan's own, evened out")
       ->check(positive)
       ->type_name("R");
-  add_choice<Lifting>(
-      command, "--lifting", options.lifting,
-      named({Lifting::triharmonic, Lifting::moving_least_squares, Lifting::modified_quadratic_shepard, Lifting::hermite,
-             Lifting::shepard}),
-      "How new points find their height where no primitive tells it");
+  add_choice<Lifting>(command, "--lifting", options.lifting,
+                      named({Lifting::triharmonic, Lifting::moving_least_squares, Lifting::modified_quadratic_shepard,
+                             Lifting::hermite, Lifting::shepard}),
+                      "How new points find their height where no primitive tells it");
   command.add_flag("--primitives,!--no-primitives", options.primitives,
                    "Planes, cylinders, cones, spheres and tori of a part tell heights and creases");
   command

@@ -15,8 +15,8 @@ using Index = HalfedgeMesh::Index;
 
 // Of an edge: a crease nearer to its end goes through the end, so that no sliver is made.
 constexpr double merged_share = 0.12;
-// Of an edge: how far beside it the meeting of its primitives may lie. The chord of a right-angled corner is off by half
-// of itself at most.
+// Of an edge: how far beside it the meeting of its primitives may lie. The chord of a right-angled corner is off by
+// half of itself at most.
 constexpr double farthest_share = 0.75;
 // Cosines: a face may lean so far from its primitive's normal, or from what it was.
 constexpr double least_on_primitive = 0.1, least_to_before = 0.2;
@@ -29,14 +29,18 @@ struct Meeting {
 
 class Cutter {
  public:
-  Cutter(HalfedgeMesh& mesh, SurfaceLabels& labels) : mesh_(mesh), labels_(labels) {}
+  Cutter(HalfedgeMesh& mesh, SurfaceLabels& labels, ClearSurface& clear)
+      : mesh_(mesh), labels_(labels), clear_(clear) {}
 
   CreaseCutResult run() {
     snap();
+    turn_edges();
     merge_near_ends();
     // Splitting leaves edges between a crease and a third primitive, where a corner lies.
-    for (int pass = 0; pass < 3; ++pass)
+    for (int pass = 0; pass < 3; ++pass) {
       if (!split_mixed_edges()) break;
+      turn_edges();
+    }
     return result_;
   }
 
@@ -52,15 +56,58 @@ class Cutter {
   bool move_if_sound(Index v, const Vec3& place) {
     const Vec3 before = mesh_.points[v];
     std::vector<Vec3> normals;
-    mesh_.for_each_outgoing(v, [&](Index h) { normals.push_back(mesh_.area_vector(HalfedgeMesh::face(h)).normalized()); });
+    mesh_.for_each_outgoing(v,
+                            [&](Index h) { normals.push_back(mesh_.area_vector(HalfedgeMesh::face(h)).normalized()); });
     mesh_.points[v] = place;
     bool sound = true;
     std::size_t i = 0;
     mesh_.for_each_outgoing(v, [&](Index h) {
       sound = sound && mesh_.area_vector(HalfedgeMesh::face(h)).normalized().dot(normals[i++]) > least_to_before;
     });
-    if (!sound) mesh_.points[v] = before;
-    return sound;
+    mesh_.points[v] = before;
+    return sound && clear_.move(v, place);
+  }
+
+  // Edges that run through the part or over a hole are turned, where the other diagonal lies nearer to the primitives.
+  void turn_edges() {
+    constexpr int most_passes = 5;
+    for (int pass = 0; pass < most_passes; ++pass) {
+      std::size_t turned = 0;
+      for (Index h = 0; h < 3 * mesh_.face_slots(); ++h) {
+        if (!mesh_.is_face_alive(HalfedgeMesh::face(h)) || mesh_.is_border(h) || h > mesh_.opposite(h)) continue;
+        if (!is_better_turned(h) || !mesh_.can_flip(h) || !clear_.clear_to_flip(h)) continue;
+        mesh_.flip(h);
+        ++turned;
+      }
+      result_.turned += turned;
+      if (turned == 0) break;
+    }
+  }
+
+  bool is_better_turned(Index h) const {
+    constexpr double least_gain = 0.1;
+    const Index a = mesh_.origin(h), b = mesh_.target(h);
+    const Index c = mesh_.origin(HalfedgeMesh::prev(h)), d = mesh_.origin(HalfedgeMesh::prev(mesh_.opposite(h)));
+    for (const Index v : {a, b, c, d})
+      if (labels_.of(v).size() == 0) return false;
+    return misfit(d, c, a) + misfit(c, d, b) + least_gain < misfit(a, b, c) + misfit(b, a, d);
+  }
+
+  // How far the face is from the nearest of its corners' primitives: in its own plane, over its longest edge, and by
+  // its normal. 0 on a primitive, about a half across a sharp edge.
+  double misfit(Index a, Index b, Index c) const {
+    const Vec3 &p = mesh_.points[a], &q = mesh_.points[b], &r = mesh_.points[c];
+    const Vec3 middle = (p + q + r) / 3, area = (q - p).cross(r - p);
+    const double longest = std::sqrt(std::max({(q - p).squaredNorm(), (r - q).squaredNorm(), (p - r).squaredNorm()}));
+    const Vec3 normal = area.norm() > 1e-3 * longest * longest ? Vec3(area.normalized()) : Vec3(Vec3::Zero());
+    double least = 4;
+    for (const Index v : {a, b, c})
+      for (const std::uint32_t label : labels_.of(v)) {
+        const Shape& shape = labels_.shape(label);
+        least =
+            std::min(least, std::abs(shape.signed_distance(middle)) / longest + 1 - shape.normal(middle).dot(normal));
+      }
+    return least;
   }
 
   bool is_mixed(Index h) const {
@@ -70,15 +117,15 @@ class Cutter {
     return std::none_of(a.begin(), a.end(), [&](std::uint32_t label) { return b.holds(label); });
   }
 
-  // Where two primitives, or the three of a crease and a face, meet near an edge. For a crease both ends must lie on the
-  // same side of the other's primitive: inside at an outer edge, outside at an inner one.
+  // Where two primitives, or the three of a crease and a face, meet near an edge. For a crease both ends must lie on
+  // the same side of the other's primitive: inside at an outer edge, outside at an inner one.
   std::optional<Meeting> meeting_on(Index h) const {
     const Index u = mesh_.origin(h), v = mesh_.target(h);
     const LabelSet& a = labels_.of(u);
     const LabelSet& b = labels_.of(v);
     const Vec3 &p = mesh_.points[u], &q = mesh_.points[v];
     const double length = (q - p).norm();
-    if (a.size() + b.size() == 3) {
+    if (a.size() + b.size() == 3 && !has_rounding(a, b)) {
       Meeting corner{.point = 0.5 * (p + q), .base = 0.5 * (p + q), .labels = a};
       for (const std::uint32_t label : b) corner.labels.add(label);
       if (const auto at = labels_.meeting(corner.labels, corner.point); at && (*at - corner.point).norm() < length) {
@@ -90,9 +137,17 @@ class Cutter {
     double nearest = farthest_share * length;
     for (const std::uint32_t la : a)
       for (const std::uint32_t lb : b) {
+        if (const std::uint32_t between = labels_.rounding_between(la, lb); between != no_primitive) {
+          // The scan has missed a piece of it.
+          const Vec3 middle = 0.5 * (p + q), foot = labels_.shape(between).foot(middle);
+          if (!((foot - middle).norm() < nearest)) continue;
+          nearest = (foot - middle).norm();
+          best = Meeting{foot, middle, LabelSet(between)};
+          continue;
+        }
         const double of_p = labels_.shape(lb).signed_distance(p), of_q = labels_.shape(la).signed_distance(q);
         if (!(of_p * of_q > 0)) continue;
-        const double t = std::abs(of_p) / (std::abs(of_p) + std::abs(of_q));
+        const double t = std::clamp(std::abs(of_p) / (std::abs(of_p) + std::abs(of_q)), 0.1, 0.9);
         const Vec3 start = (1 - t) * p + t * q;
         LabelSet both(la);
         both.add(lb);
@@ -104,6 +159,13 @@ class Cutter {
     return best;
   }
 
+  bool has_rounding(const LabelSet& a, const LabelSet& b) const {
+    for (const std::uint32_t la : a)
+      for (const std::uint32_t lb : b)
+        if (labels_.rounding_between(la, lb) != no_primitive) return true;
+    return false;
+  }
+
   // Vertices that are all but on a crease become its own.
   void merge_near_ends() {
     for (Index v = 0; v < mesh_.vertex_slots(); ++v) {
@@ -113,8 +175,9 @@ class Cutter {
       mesh_.for_each_outgoing(v, [&](Index h) {
         if (!is_mixed(h) || labels_.of(mesh_.target(h)).size() != 1) return;
         const auto meeting = meeting_on(h);
-        if (!meeting) return;
-        const double share = (meeting->point - mesh_.points[v]).norm() / (mesh_.points[mesh_.target(h)] - mesh_.points[v]).norm();
+        if (!meeting || meeting->labels.size() < 2) return;
+        const double share =
+            (meeting->point - mesh_.points[v]).norm() / (mesh_.points[mesh_.target(h)] - mesh_.points[v]).norm();
         if (share >= merged_share || share >= least) return;
         least = share;
         nearest = meeting;
@@ -144,6 +207,10 @@ class Cutter {
 
   // The four faces that a split makes.
   bool stays_sound(Index h, const Meeting& meeting) const {
+    // Ends that could not be moved onto the crease are not given needles instead.
+    constexpr double least_share = 0.03;
+    const Vec3 &p = mesh_.points[mesh_.origin(h)], &q = mesh_.points[mesh_.target(h)];
+    if (std::min((meeting.point - p).norm(), (meeting.point - q).norm()) < least_share * (q - p).norm()) return false;
     for (const Index side : {h, mesh_.opposite(h)}) {
       const Index a = mesh_.origin(side), b = mesh_.target(side), c = mesh_.origin(HalfedgeMesh::prev(side));
       const Vec3 before = mesh_.area_vector(HalfedgeMesh::face(side)).normalized();
@@ -165,22 +232,28 @@ class Cutter {
 
   void split(Index h, const Meeting& meeting) {
     result_.bases.push_back(meeting.base);
-    const Index v = mesh_.split_edge(h, meeting.point);
-    labels_.add(meeting.labels);
+    const Index v = mesh_.split_edge(h, meeting.base);
+    clear_.vertex_added(v);
+    const bool there = clear_.move(v, meeting.point);
+    labels_.add(there ? meeting.labels : LabelSet());
     DelaunayFlipLimits limits;
-    limits.may_flip = [&](Index edge) { return labels_.may_flip(edge) && labels_.of_face(HalfedgeMesh::face(edge)) != no_primitive; };
+    limits.may_flip = [&](Index edge) {
+      return labels_.may_flip(edge) && labels_.of_face(HalfedgeMesh::face(edge)) != no_primitive &&
+             clear_.clear_to_flip(edge);
+    };
     restore_delaunay(mesh_, v, limits);
   }
 
   HalfedgeMesh& mesh_;
   SurfaceLabels& labels_;
+  ClearSurface& clear_;
   CreaseCutResult result_;
 };
 
 }  // namespace
 
-CreaseCutResult cut_creases(HalfedgeMesh& mesh, SurfaceLabels& labels) {
-  return Cutter(mesh, labels).run();
+CreaseCutResult cut_creases(HalfedgeMesh& mesh, SurfaceLabels& labels, ClearSurface& clear) {
+  return Cutter(mesh, labels, clear).run();
 }
 
 }  // namespace scan2fea

@@ -1,15 +1,16 @@
 #include "preproc/surface/enrichment/enrich.hpp"
 
 #include "preproc/mesh/error.hpp"
+#include "preproc/surface/enrichment/clear_surface.hpp"
 #include "preproc/surface/enrichment/cut_creases.hpp"
 #include "preproc/surface/enrichment/insertion.hpp"
 #include "preproc/surface/enrichment/triharmonic_lift.hpp"
-#include "preproc/surface/enrichment/undo_folds.hpp"
 #include "preproc/surface/kernel/halfedge_mesh.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 namespace scan2fea {
 namespace {
@@ -43,13 +44,26 @@ double hold_against(const Primitives& found) {
   return noise > least_noise ? usual_hold * std::pow(usual_noise / noise, 2) : 0;
 }
 
-void lift_the_rest(HalfedgeMesh& mesh, const SurfaceLabels& labels, Index original, const Primitives& found) {
+void move_all(HalfedgeMesh& mesh, ClearSurface& clear, const std::vector<Vec3>& targets) {
+  constexpr int sweeps = 3;
+  for (int sweep = 0; sweep < sweeps; ++sweep)
+    for (Index v = 0; v < targets.size(); ++v)
+      if (mesh.points[v] != targets[v] && !clear.move(v, targets[v]) && sweep + 1 == sweeps)
+        clear.move(v, 0.5 * (mesh.points[v] + targets[v]));
+}
+
+void lift_the_rest(HalfedgeMesh& mesh, ClearSurface& clear, const SurfaceLabels& labels, Index original,
+                   const Insertion& inserted, const Primitives& found) {
   std::vector<bool> free(mesh.vertex_slots(), false), measured(mesh.vertex_slots(), false);
   for (Index v = 0; v < mesh.vertex_slots(); ++v) {
-    if (labels.of(v).size() > 0) continue;
+    if (labels.of(v).size() > 0 || (v >= inserted.first && inserted.in_gap[v - inserted.first])) continue;
     (v < original ? measured : free)[v] = true;
   }
-  triharmonic_lift(mesh, free, measured, {.hold = hold_against(found)});
+  // Solved all at once, then gone to one by one, as far as nothing meets.
+  const std::vector<Vec3> before = mesh.points;
+  triharmonic_lift(mesh, free, measured, {.hold = hold_against(found), .creases = inserted.on_crease});
+  std::vector<Vec3> targets = std::exchange(mesh.points, before);
+  move_all(mesh, clear, targets);
 }
 
 void count_moves(const HalfedgeMesh& mesh, const std::vector<Vec3>& bases, Index original, EnrichResult& result) {
@@ -80,16 +94,16 @@ EnrichResult enrich(SurfaceMesh& mesh, const EnrichOptions& options, const Progr
   SurfaceLabels labels(surface, found);
   const auto original = static_cast<Index>(surface.vertex_slots());
   std::vector<Vec3> bases = surface.points;
-  const CreaseCutResult cut = cut_creases(surface, labels);
+  ClearSurface clear(surface, std::max(mean_edge_length(mesh), 1e-300));
+  const CreaseCutResult cut = cut_creases(surface, labels, clear);
   bases.insert(bases.end(), cut.bases.begin(), cut.bases.end());
-  Insertion inserted = insert_points(surface, labels, original, options, progress);
+  const Insertion inserted = insert_points(surface, labels, clear, original, options, progress);
   bases.insert(bases.end(), inserted.bases.begin(), inserted.bases.end());
-  EnrichResult result = std::move(inserted.result);
+  EnrichResult result = inserted.result;
   result.added += cut.bases.size();
   if (result.added == 0) return result;
   progress("enrich", 0.8);
-  if (options.lifting == Lifting::triharmonic) lift_the_rest(surface, labels, original, found);
-  result.not_lifted += undo_folds(surface, labels, bases);
+  if (options.lifting == Lifting::triharmonic) lift_the_rest(surface, clear, labels, original, inserted, found);
   count_moves(surface, bases, original, result);
   result.creases = creases_of(surface, labels);
   result.primitives = found.list;

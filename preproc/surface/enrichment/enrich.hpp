@@ -32,9 +32,9 @@ struct WholeSurface {};
 using EnrichDomain = std::variant<WholeSurface, BoundingBox, Ball>;
 
 struct EnrichOptions {
-  // R_s, the wanted spacing, model units, > 0. Not given: the median distance of the sixth neighbour in the domain,
-  // which levels out an uneven scan and about triples its points, and at least the spacing of as many points spread
-  // evenly, which bounds the growth where most points crowd in one place. Before a
+  // R_s, the wanted spacing, model units, > 0. Not given: three quarters of the median distance of the sixth neighbour
+  // in the domain, which levels out an uneven scan and about triples its points, and at least as much of the spacing of
+  // as many points spread evenly, which bounds the growth where most points crowd in one place. Before a
   // simplification give the edge length that it will be asked for: then only places where the scan's own spacing
   // exceeds what the mesh needs are enriched, and none where there are points enough.
   std::optional<double> sampling_radius = {};
@@ -69,15 +69,15 @@ enum class EnrichStop {
 };
 
 struct EnrichResult {
-  double sampling_radius = 0;       // R_s as used
-  std::size_t added = 0;          // new vertices, after the original ones in the mesh
-  std::size_t on_primitives = 0;  // of these: put onto a primitive, beside those on creases
-  std::size_t not_lifted = 0;     // vertices left on the triangulation, or put back there, because faces turned over
-  std::size_t domain_vertices = 0;  // at the end
-  std::size_t content = 0;          // of these: meet the condition
-  double largest_height = 0;        // of a new vertex over the triangulation, model units
-  double largest_correction = 0;    // of a measured one, model units
-  std::vector<FeatureEdge> creases;   // edges of the mesh that were restored, sorted
+  double sampling_radius = 0;        // R_s as used
+  std::size_t added = 0;             // new vertices, after the original ones in the mesh
+  std::size_t on_primitives = 0;     // of these: put onto a primitive, beside those on creases
+  std::size_t not_lifted = 0;        // vertices left on the triangulation, or put back there, because faces turned over
+  std::size_t domain_vertices = 0;   // at the end
+  std::size_t content = 0;           // of these: meet the condition
+  double largest_height = 0;         // of a new vertex over the triangulation, model units
+  double largest_correction = 0;     // of a measured one, model units
+  std::vector<FeatureEdge> creases;  // edges of the mesh that were restored, sorted
   std::vector<Primitive> primitives;  // that the scan was found to consist of
   int rounds = 0;
   EnrichStop stop = EnrichStop::all_content;
@@ -85,12 +85,12 @@ struct EnrichResult {
 
 // Precondition: `mesh` is an oriented manifold (NotMeshable otherwise); it may have borders. Original vertices keep
 // their order (vertices that no face uses are dropped), borders their edges, the surface its topology. They keep their
-// places, too, but for those on primitives (by at most 4 of its sigmas, or an eighth of an edge onto a crease) and those
-// of noisy scans, which are smoothed. Edges are flipped near new vertices only, and never across creases. Faces that a
-// move turned over or drove through others are put back. Where nothing is missing nothing changes. Throws WrongUsage for
-// options out of range. On any throw `mesh` is as it was. Deterministic, one thread; O((n + m) log n) for n vertices and
-// m new ones, about 100 microseconds a new vertex. Not guaranteed: that what a gap of the scan hid is known; that a
-// surface that crossed itself before does not afterwards.
+// places, too, but for those on primitives (by at most 4 of its sigmas, or an eighth of an edge onto a crease) and
+// those of noisy scans, which are smoothed. Edges are flipped near new vertices only, and never across creases. Faces
+// that a move turned over or drove through others are put back. Where nothing is missing nothing changes. Throws
+// WrongUsage for options out of range. On any throw `mesh` is as it was. Deterministic, one thread; O((n + m) log n)
+// for n vertices and m new ones, about 100 microseconds a new vertex. Not guaranteed: that what a gap of the scan hid
+// is known; that a surface that crossed itself before does not afterwards.
 EnrichResult enrich(SurfaceMesh& mesh, const EnrichOptions& options = {}, const Progress& progress = {});
 
 }  // namespace scan2fea

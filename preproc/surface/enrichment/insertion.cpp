@@ -48,9 +48,10 @@ double area_of(const HalfedgeMesh& mesh) {
 
 class Inserter {
  public:
-  Inserter(HalfedgeMesh& mesh, SurfaceLabels& labels, Index original, const EnrichOptions& options)
+  Inserter(HalfedgeMesh& mesh, SurfaceLabels& labels, ClearSurface& clear, Index original, const EnrichOptions& options)
       : mesh_(mesh),
         labels_(labels),
+        clear_(clear),
         options_(options),
         nearest_(mesh_),
         normals_(mesh_, crease_deg),
@@ -62,12 +63,13 @@ class Inserter {
     const double area = area_of(mesh_);
     radius_ = options.sampling_radius ? *options.sampling_radius : default_radius(area);
     requests_.assign(mesh_.vertex_slots(), 0);
+    mark_creases();
     if (radius_ > 0) {
       const double packed = 2 * equilateral_area * separation * separation * radius_ * radius_;  // of each point
       const double bound = std::min(2 * area / packed + 100, 1e9);
       most_new_vertices_ = std::min(options.most_new_vertices, static_cast<std::size_t>(bound));
     }
-    flip_limits_.may_flip = [this](Index h) { return labels_.may_flip(h); };
+    flip_limits_.may_flip = [this](Index h) { return labels_.may_flip(h) && clear_.clear_to_flip(h); };
   }
 
   Insertion run(const Progress& progress) {
@@ -105,11 +107,21 @@ class Inserter {
   // Where half of the points crowd in a small part of the surface the median tells about that part alone; as many
   // points spread evenly, in equilateral triangles, would have the other spacing.
   double default_radius(double area) {
+    constexpr double spacing_share = 0.75;
     std::vector<Index> measured;
     for (const Index v : domain_)
       if (v < original_) measured.push_back(v);
     const auto points = static_cast<double>(std::max<std::size_t>(1, original_));
-    return std::max(importance_.median_spacing(measured), equilateral_edge(area, 2 * points));
+    return spacing_share * std::max(importance_.median_spacing(measured), equilateral_edge(area, 2 * points));
+  }
+
+  void mark_creases() {
+    done_.on_crease.assign(mesh_.vertex_slots(), false);
+    for (Index h = 0; h < 3 * mesh_.face_slots(); ++h) {
+      if (!mesh_.is_face_alive(HalfedgeMesh::face(h)) || mesh_.is_border(h)) continue;
+      if (!labels_.is_crease(h) && !normals_.is_crease(mesh_, h)) continue;
+      done_.on_crease[mesh_.origin(h)] = done_.on_crease[mesh_.target(h)] = true;
+    }
   }
 
   bool fill_one_of(Index v, const std::vector<Vec3>& bisectors) {
@@ -139,19 +151,33 @@ class Inserter {
 
     const bool on_crease = on_edge && (labels_.is_crease(edge) || normals_.is_crease(mesh_, edge));
     const LabelSet labels = on_edge && labels_.is_crease(edge) ? crease_labels(edge) : LabelSet(label_at(base, normal));
+    // Between points that lie on primitives and a place that lies on none the triangulation is wrong: it spans a gap,
+    // or the mouth of a hole. Nothing tells the height there.
+    const bool spans_gap = labels.size() == 0 && std::all_of(t.begin(), t.end(), [&](Index w) { return is_known(w); });
     if (on_crease)
       normals_.add(normal, normal_at(across(edge, base)));
     else
       normals_.add(normal);
     const Index v = on_edge ? mesh_.split_edge(edge, point) : mesh_.split_face(base.face, point);
+    clear_.vertex_added(v);
     labels_.add(labels);
     done_.bases.push_back(point);
+    done_.on_crease.push_back(on_crease);
     requests_.push_back(0);
     domain_.push_back(v);
     ++done_.result.added;
+    const double farthest = farthest_move(t);
     restore_delaunay(mesh_, v, flip_limits_);
-    place(v, t, on_crease);
+    done_.in_gap.push_back(spans_gap);
+    if (spans_gap)
+      ++done_.result.not_lifted;
+    else
+      place(v, t, on_crease, farthest);
     return true;
+  }
+
+  bool is_known(Index v) const {
+    return labels_.of(v).size() > 0 || (v >= done_.first && done_.in_gap[v - done_.first]);
   }
 
   LabelSet crease_labels(Index edge) const {
@@ -171,37 +197,58 @@ class Inserter {
     if (best == no_primitive) {
       if (labels_.of(t[0]).size() == 0 || labels_.of(t[1]).size() == 0 || labels_.of(t[2]).size() == 0) return best;
       double most = least_agreement;
-      for (const Index v : t)
-        for (const std::uint32_t label : labels_.of(v)) {
-          const double agreement = labels_.shape(label).normal(point).dot(normal);
-          if (!(agreement > most)) continue;
-          most = agreement;
-          best = label;
-        }
+      for (const std::uint32_t label : labels_around(t)) {
+        const double agreement = labels_.shape(label).normal(point).dot(normal);
+        if (!(agreement > most)) continue;
+        most = agreement;
+        best = label;
+      }
     }
     if (best == no_primitive) return best;
     const Shape& shape = labels_.shape(best);
-    const bool near = std::abs(shape.signed_distance(point)) < 0.5 * radius_;
+    const bool near = std::abs(shape.signed_distance(point)) < farthest_move(t);
     return near && shape.normal(point).dot(face_normal) > least_agreement ? best : no_primitive;
   }
 
-  void place(Index v, const Triangle& seeds, bool on_crease) {
+  // Over a rounding of a right angle the chord is off by a fifth of its length.
+  double farthest_move(const Triangle& t) const {
+    constexpr double share = 0.35;
+    double longest = radius_;
+    for (std::size_t i = 0; i < 3; ++i)
+      longest = std::max(longest, (mesh_.points[t[i]] - mesh_.points[t[(i + 1) % 3]]).norm());
+    return share * longest;
+  }
+
+  // The primitives of the corners, and the roundings between them.
+  std::vector<std::uint32_t> labels_around(const Triangle& t) const {
+    std::vector<std::uint32_t> all;
+    for (const Index v : t) all.insert(all.end(), labels_.of(v).begin(), labels_.of(v).end());
+    const std::size_t corners = all.size();
+    for (std::size_t i = 0; i < corners; ++i)
+      for (std::size_t j = i + 1; j < corners; ++j)
+        if (const std::uint32_t between = labels_.rounding_between(all[i], all[j]); between != no_primitive)
+          all.push_back(between);
+    return all;
+  }
+
+  void place(Index v, const Triangle& seeds, bool on_crease, double farthest) {
     if (labels_.of(v).size() > 0) {
       const auto onto = labels_.meeting(labels_.of(v), mesh_.points[v]);
-      if (onto && (*onto - mesh_.points[v]).norm() < 0.5 * radius_ && !turns_over(v, *onto)) {
-        mesh_.points[v] = *onto;
+      if (onto && (*onto - mesh_.points[v]).norm() < farthest && !turns_over(v, *onto) && clear_.move(v, *onto)) {
         ++done_.result.on_primitives;
         return;
       }
       labels_.set(v, LabelSet());
+      done_.in_gap.back() = true;
+      ++done_.result.not_lifted;
+      return;
     }
-    if (options_.lifting == Lifting::triharmonic) return;
     if (on_crease) {
       // The two sides tell two heights, and neither is the crease's.
       ++done_.result.not_lifted;
       return;
     }
-    if (options_.place_by_entropy) mesh_.points[v] = placed_by_entropy(v);
+    if (options_.place_by_entropy) clear_.move(v, placed_by_entropy(v));
     lift(v, seeds, mesh_.points[v]);
   }
 
@@ -279,15 +326,16 @@ class Inserter {
         });
     // Wendland's weight is 0 at the radius, where the farthest sample would not count; with twice the radius the far
     // ones count so much that the RMS distance of a thinned Horse grows by 3 %.
-    const double height = lifted_height(options_.lifting, samples_, base, normal, 1.2 * farthest);
+    const Lifting lifting = options_.lifting == Lifting::triharmonic ? Lifting::hermite : options_.lifting;
+    const double height = lifted_height(lifting, samples_, base, normal, 1.2 * farthest);
     // A height of 0.8 of the way to the nearest sample is a slope of 39 degrees: beyond, it is not credible. On thinned
     // scans of the Horse and of fandisk, 0.3 changes the RMS distance by -2 and +1 %, 3 by less than 1 %.
     const Vec3 place = base + height * normal;
-    if (!(std::abs(height) <= 0.8 * closest) || folds(v, place) || !has_room(seeds, place, normal, v)) {
+    if (!(std::abs(height) <= 0.8 * closest) || folds(v, place) || !has_room(seeds, place, normal, v) ||
+        !clear_.move(v, place)) {
+      // It stays on the triangulation.
       ++done_.result.not_lifted;
-      return;
     }
-    mesh_.points[v] = place;
   }
 
   bool folds(Index v, const Vec3& place) const {
@@ -298,6 +346,7 @@ class Inserter {
 
   HalfedgeMesh& mesh_;
   SurfaceLabels& labels_;
+  ClearSurface& clear_;
   const EnrichOptions& options_;
   NearestOnSurface nearest_;
   SideNormals normals_;  // of the scan at its vertices; of a new one, interpolated where it was put
@@ -314,9 +363,9 @@ class Inserter {
 
 }  // namespace
 
-Insertion insert_points(HalfedgeMesh& mesh, SurfaceLabels& labels, Index original, const EnrichOptions& options,
-                        const Progress& progress) {
-  return Inserter(mesh, labels, original, options).run(progress);
+Insertion insert_points(HalfedgeMesh& mesh, SurfaceLabels& labels, ClearSurface& clear, Index original,
+                        const EnrichOptions& options, const Progress& progress) {
+  return Inserter(mesh, labels, clear, original, options).run(progress);
 }
 
 }  // namespace scan2fea

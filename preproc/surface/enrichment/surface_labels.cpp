@@ -9,6 +9,13 @@ SurfaceLabels::SurfaceLabels(const HalfedgeMesh& mesh, const Primitives& found) 
   for (Index v = 0; v < mesh.vertex_slots(); ++v) sets_.emplace_back(found.labels[v]);
 }
 
+std::uint32_t SurfaceLabels::rounding_between(std::uint32_t one, std::uint32_t other) const {
+  for (std::uint32_t i = 0; i < found_.list.size(); ++i)
+    if (const auto& sides = found_.list[i].relations.tangent_to)
+      if ((*sides)[0] + (*sides)[1] == one + other && ((*sides)[0] == one || (*sides)[1] == one)) return i;
+  return no_primitive;
+}
+
 std::uint32_t SurfaceLabels::of_face(Index f) const {
   const Triangle t = mesh_.triangle(f);
   std::uint32_t best = no_primitive;

@@ -1,5 +1,5 @@
-// Which primitives the vertices of a surface lie on: one on a face of the part, two on a crease, three at a corner, none
-// where nothing is known. The primitive of a face is the one that its corners share.
+// Which primitives the vertices of a surface lie on: one on a face of the part, two on a crease, three at a corner,
+// none where nothing is known. The primitive of a face is the one that its corners share.
 #pragma once
 
 #include "preproc/surface/kernel/halfedge_mesh.hpp"
@@ -49,6 +49,9 @@ class SurfaceLabels {
   void add(const LabelSet& labels) { sets_.push_back(labels); }
 
   const Shape& shape(std::uint32_t label) const { return found_.list[label].shape; }
+
+  // The rounding between two primitives, wherever along them it was found; no_primitive where there is none.
+  std::uint32_t rounding_between(std::uint32_t one, std::uint32_t other) const;
 
   // That all corners share; where they share several, the one whose normal is nearest to the face's. no_primitive where
   // they share none.

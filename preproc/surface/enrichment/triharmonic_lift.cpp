@@ -20,7 +20,8 @@ class Lifter {
          const TriharmonicOptions& options)
       : mesh_(mesh), options_(options), unknown_(mesh.vertex_slots(), fixed), places_(mesh.points) {
     const auto is_free = [&](Index v) {
-      return mesh_.is_alive(v) && !mesh_.is_border_vertex(v) && (free[v] || (options.hold > 0 && measured[v]));
+      return mesh_.is_alive(v) && !mesh_.is_border_vertex(v) && !is_crease(v) &&
+             (free[v] || (options.hold > 0 && measured[v]));
     };
     for (Index v = 0; v < mesh_.vertex_slots(); ++v) {
       if (!is_free(v)) continue;
@@ -30,16 +31,45 @@ class Lifter {
   }
 
   void run() {
-    if (count_ == 0) return;
-    gather_near();
-    for (int solve = 0; solve < options_.solves; ++solve)
+    for (int solve = 0; solve < options_.solves && count_ > 0; ++solve) {
+      gather_near();
       if (!solve_once()) return;
+      pin_the_far();
+    }
   }
 
  private:
+  bool is_crease(Index v) const { return !options_.creases.empty() && options_.creases[v]; }
+
+  // What moves so far was not told by its neighbours: it goes back, and the next solve goes through it.
+  void pin_the_far() {
+    constexpr double farthest = 0.7;  // of the edges around
+    std::vector<bool> held;
+    count_ = 0;
+    for (Index v = 0; v < unknown_.size(); ++v) {
+      if (unknown_[v] == fixed) continue;
+      double sum = 0;
+      int edges = 0;
+      mesh_.for_each_neighbour(v, [&](Index w) {
+        sum += (places_[w] - places_[v]).norm();
+        ++edges;
+      });
+      const bool was_held = held_[static_cast<std::size_t>(unknown_[v])];
+      if ((mesh_.points[v] - places_[v]).norm() * edges > farthest * sum) {
+        mesh_.points[v] = places_[v];
+        unknown_[v] = fixed;
+        continue;
+      }
+      unknown_[v] = count_++;
+      held.push_back(was_held);
+    }
+    held_ = std::move(held);
+  }
+
   // Vertices within three edges of a free one: all that its equations read.
   void gather_near() {
     row_.assign(mesh_.vertex_slots(), fixed);
+    near_.clear();
     std::vector<Index> ring;
     const auto take = [&](Index v) {
       if (row_[v] != fixed) return;
@@ -92,7 +122,8 @@ class Lifter {
     for (std::size_t i = 0; i < 3; ++i) {
       const int a = row_[t[(i + 1) % 3]], b = row_[t[(i + 2) % 3]];
       if (a == fixed || b == fixed) continue;
-      const Vec3 u = mesh_.points[t[(i + 1) % 3]] - mesh_.points[t[i]], w = mesh_.points[t[(i + 2) % 3]] - mesh_.points[t[i]];
+      const Vec3 u = mesh_.points[t[(i + 1) % 3]] - mesh_.points[t[i]],
+                 w = mesh_.points[t[(i + 2) % 3]] - mesh_.points[t[i]];
       const double cotangent = std::clamp(u.dot(w) / std::max(u.cross(w).norm(), 1e-300), 0.0, most_cotangent);
       const double weight = 0.5 * std::max(cotangent, 0.01);
       entries.emplace_back(a, a, weight);
@@ -107,11 +138,11 @@ class Lifter {
     Sparse stiffness;
     Eigen::VectorXd mass;
     build_laplacian(stiffness, mass);
-    // Laplacians of vertices at the rim of what is looked at are not whole, and do not count.
+    // Laplacians of vertices at the rim of what is looked at are not whole, and do not count; nor do those on creases.
     const auto n = static_cast<Eigen::Index>(near_.size());
     Eigen::VectorXd inverse = Eigen::VectorXd::Zero(n), kept = Eigen::VectorXd::Zero(n);
     for (Eigen::Index i = 0; i < n; ++i)
-      if (i < static_cast<Eigen::Index>(inner_)) {
+      if (i < static_cast<Eigen::Index>(inner_) && !is_crease(near_[static_cast<std::size_t>(i)])) {
         kept[i] = 1;
         inverse[i] = 1 / mass[i];
       }
@@ -127,7 +158,8 @@ class Lifter {
     pick.setFromTriplets(ones.begin(), ones.end());
     Eigen::Matrix<double, Eigen::Dynamic, 3> known = Eigen::Matrix<double, Eigen::Dynamic, 3>::Zero(n, 3);
     for (Eigen::Index i = 0; i < n; ++i)
-      if (const Index v = near_[static_cast<std::size_t>(i)]; unknown_[v] == fixed) known.row(i) = mesh_.points[v].transpose();
+      if (const Index v = near_[static_cast<std::size_t>(i)]; unknown_[v] == fixed)
+        known.row(i) = mesh_.points[v].transpose();
     const Sparse columns = laplacian * pick;
     const Sparse weighted = middle * columns;
     Sparse normal = Sparse(columns.transpose()) * weighted;

@@ -13,6 +13,8 @@ struct TriharmonicOptions {
   double hold = 0;
   // Solves, each with the shape of triangles that the one before has left. The second gains a tenth, a third nothing.
   int solves = 2;
+  // Per vertex; none: nowhere. The surface need not be smooth across these. They stay.
+  std::vector<bool> creases;
 };
 
 // Moves the vertices marked `free` to where the integral of |grad Laplace x|^2 + 0.1 |Laplace x|^2 (lengths over the
