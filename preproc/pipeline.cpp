@@ -143,10 +143,20 @@ void describe(const RepairResult& result, StageRecord& record) {
 void describe(const EnrichResult& result, StageRecord& record) {
   record.changes = {{"sampling_radius", result.sampling_radius},
                     {"vertices_added", static_cast<double>(result.added)},
+                    {"primitives", static_cast<double>(result.primitives.size())},
+                    {"crease_edges", static_cast<double>(result.creases.size())},
+                    {"on_primitives", static_cast<double>(result.on_primitives)},
                     {"not_lifted", static_cast<double>(result.not_lifted)},
                     {"domain_vertices", static_cast<double>(result.domain_vertices)},
                     {"content", static_cast<double>(result.content)},
-                    {"largest_height", result.largest_height}};
+                    {"largest_height", result.largest_height},
+                    {"largest_correction", result.largest_correction}};
+}
+
+// What an engineer looks for in a part: round things, since faces are many and told by the eye.
+void describe_primitives(const std::vector<Primitive>& primitives, StageRecord& record) {
+  for (const Primitive& primitive : primitives)
+    if (primitive.use != PrimitiveUse::face) record.remarks.push_back(describe(primitive));
 }
 
 // Of what is made in another frame, places and lengths in the scan's.
@@ -398,6 +408,16 @@ void MeshMaker::bring_back() {
 
 namespace {
 
+// Restored creases are exact, and those that would be found beside them are not: they are kept as far as triangles of
+// the wanted size can.
+void hand_on_creases(const SurfaceMesh& enriched, const std::vector<FeatureEdge>& creases,
+                     std::optional<SimplifyOptions>& simplification) {
+  if (creases.empty() || !simplification || simplification->given_features || !simplification->features.angle_deg)
+    return;
+  simplification->given_features = lines_of(enriched, creases);
+  simplification->may_drop_given = true;
+}
+
 void run_stages(SurfaceMesh scan, const PipelineOptions& options, const Progress& progress, StageLog& log,
                 PipelineResult& result) {
   const auto stairs = options.simplify ? find_stair_steps(scan) : std::nullopt;
@@ -412,13 +432,19 @@ void run_stages(SurfaceMesh scan, const PipelineOptions& options, const Progress
         record.remarks.emplace_back("nothing was thickened: no sheet is open");
     });
   result.scan = std::move(scan);
+  PipelineOptions chain = options;
   SurfaceMesh enriched;  // scans are large: none is copied that the next stage reads only
   if (options.enrich)
     log.run("enrich", [&](StageRecord& record) {
       enriched = result.scan;
-      describe(enrich(enriched, *options.enrich, progress), record);
+      EnrichResult made = enrich(enriched, *options.enrich, progress);
+      describe(made, record);
+      describe_primitives(made.primitives, record);
+      result.primitives = std::move(made.primitives);
+      if (!options.simplify) result.measured_vertices = enriched.vertices.size() - made.added;
+      hand_on_creases(enriched, made.creases, chain.simplify);
     });
-  FilledSurface made = MeshMaker(options.enrich ? enriched : result.scan, stairs, options, result, log).run(progress);
+  FilledSurface made = MeshMaker(options.enrich ? enriched : result.scan, stairs, chain, result, log).run(progress);
   if (options.simplify || options.tetrahedralize)
     result.weak_places = checked_for_solvers(made.surface, options.tetrahedralize ? &made.filled.mesh : nullptr,
                                              result.reference(), options);

@@ -49,6 +49,9 @@ struct PipelineResult {
   RepairResult repaired;
   SurfaceMesh scan;       // after repair
   SurfaceMesh surface;    // the last surface of the chain
+  std::vector<Primitive> primitives;  // of a part, where enrichment was asked for
+  // Of `surface`, where it is an enriched one: so many vertices, the first, were measured.
+  std::optional<std::size_t> measured_vertices;
   FeatureLines features;  // the scan's edges that simplification was to keep
   std::optional<TetMesh> volume_mesh;
   std::vector<StageRecord> stages;

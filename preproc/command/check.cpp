@@ -90,7 +90,8 @@ int check(const CheckFlags& flags) {
                         .stages = nullptr,
                         .repaired = nullptr,
                         .cloud = cloud ? &*cloud : nullptr,
-                        .outliers = nullptr};
+                        .outliers = nullptr,
+                        .primitives = nullptr};
   StagedOutputs outputs;
   if (flags.leaks) {
     const std::vector<Opening> openings = find_openings(mesh.surface);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
+#include <numbers>
 
 namespace scan2fea::command {
 namespace {
@@ -33,6 +34,33 @@ Json list_changes(const RepairResult& repaired, bool (*is_listed)(RepairKind)) {
   return list;
 }
 
+// Places of others are places in this list.
+Json to_json(const std::vector<Primitive>& primitives) {
+  Json list = Json::array();
+  for (const Primitive& primitive : primitives) {
+    const Shape& shape = primitive.shape;
+    Json entry{{"name", describe(primitive)}, {"use", name_of(primitive.use)},
+               {"kind", name_of(shape.kind)}, {"place", {shape.origin.x(), shape.origin.y(), shape.origin.z()}},
+               {"points", primitive.points},  {"fit", primitive.fit},
+               {"extent", primitive.extent}};
+    if (shape.kind != ShapeKind::sphere) entry["axis"] = {shape.axis.x(), shape.axis.y(), shape.axis.z()};
+    if (shape.kind != ShapeKind::plane) {
+      entry["radius"] = shape.radius;
+      entry["hollow"] = shape.hollow;
+    }
+    if (shape.kind == ShapeKind::torus) entry["tube_radius"] = shape.tube_radius;
+    if (shape.kind == ShapeKind::cone) entry["half_angle_deg"] = shape.half_angle * 180 / std::numbers::pi;
+    if (primitive.turn_deg > 0) entry["turn_deg"] = primitive.turn_deg;
+    const ShapeRelations& relations = primitive.relations;
+    if (relations.tangent_to) entry["tangent_to"] = *relations.tangent_to;
+    if (relations.parallel_to) entry["parallel_to"] = *relations.parallel_to;
+    if (relations.coaxial_to) entry["coaxial_to"] = *relations.coaxial_to;
+    if (relations.same_radius_as) entry["same_radius_as"] = *relations.same_radius_as;
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
 Json measure(const Subject& subject, const CommonFlags& flags) {
   Report report;
   report.input = flags.input.string();
@@ -53,6 +81,7 @@ Json measure(const Subject& subject, const CommonFlags& flags) {
     json["lost"] = list_changes(*subject.repaired, is_lost);
     json["made_up"] = list_changes(*subject.repaired, is_made_up);
   }
+  if (subject.primitives != nullptr && !subject.primitives->empty()) json["primitives"] = to_json(*subject.primitives);
   if (subject.stages != nullptr) json["stages"] = to_json(*subject.stages);
   return json;
 }

@@ -153,7 +153,8 @@ int make_mesh(MakeMeshJob job) {
                           .stages = &result.stages,
                           .repaired = &result.repaired,
                           .cloud = std::get_if<PointCloud>(&scan),
-                          .outliers = &result.outliers};
+                          .outliers = &result.outliers,
+                          .primitives = &result.primitives};
     if (!report_figures(subject, job.common, gates, display, outputs)) {
       outputs.commit();
       return 1;
@@ -167,7 +168,7 @@ int make_mesh(MakeMeshJob job) {
     for (const std::string& warning : write_volume(*result.volume_mesh, job.output, options).warnings)
       display.line("warning: " + warning);
   } else {
-    write_surface(result.surface, job.output);
+    write_surface(result.surface, job.output, result.measured_vertices);
   }
   outputs.commit();
   ends_by_itself_now();

@@ -51,7 +51,7 @@ class Buffer {
   std::string bytes_;
 };
 
-void write_stl(const SurfaceMesh& mesh, Buffer& out) {
+void write_stl(const SurfaceMesh& mesh, std::optional<std::size_t>, Buffer& out) {
   std::string header = "written by scan2fea";  // must not begin with "solid", by which ASCII is told
   header.resize(80, ' ');
   out.text(header).binary(static_cast<std::uint32_t>(mesh.triangles.size()));
@@ -74,7 +74,7 @@ void write_stl(const SurfaceMesh& mesh, Buffer& out) {
   }
 }
 
-void write_obj(const SurfaceMesh& mesh, Buffer& out) {
+void write_obj(const SurfaceMesh& mesh, std::optional<std::size_t>, Buffer& out) {
   for (const Vec3& p : mesh.vertices) {
     out.text("v");
     for (const double coordinate : p) out.text(" ").number(coordinate);
@@ -88,21 +88,25 @@ void write_obj(const SurfaceMesh& mesh, Buffer& out) {
 }
 
 // `int` and not `uint` for indices: it is what all readers know.
-void write_ply(const SurfaceMesh& mesh, Buffer& out) {
+void write_ply(const SurfaceMesh& mesh, std::optional<std::size_t> measured, Buffer& out) {
   out.text("ply\nformat binary_little_endian 1.0\ncomment written by scan2fea\nelement vertex ");
   out.number(mesh.vertices.size());
-  out.text("\nproperty double x\nproperty double y\nproperty double z\nelement face ");
+  out.text("\nproperty double x\nproperty double y\nproperty double z\n");
+  if (measured) out.text("property uchar measured\n");
+  out.text("element face ");
   out.number(mesh.triangles.size());
   out.text("\nproperty list uchar int vertex_indices\nend_header\n");
-  for (const Vec3& p : mesh.vertices)
-    for (const double coordinate : p) out.binary(coordinate);
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    for (const double coordinate : mesh.vertices[v]) out.binary(coordinate);
+    if (measured) out.binary(static_cast<std::uint8_t>(v < *measured));
+  }
   for (const Triangle& t : mesh.triangles) {
     out.binary(std::uint8_t{3});
     for (const std::uint32_t v : t) out.binary(v);
   }
 }
 
-void write_off(const SurfaceMesh& mesh, Buffer& out) {
+void write_off(const SurfaceMesh& mesh, std::optional<std::size_t>, Buffer& out) {
   out.text("OFF\n").number(mesh.vertices.size()).text(" ").number(mesh.triangles.size()).text(" 0\n");
   for (const Vec3& p : mesh.vertices) out.number(p[0]).text(" ").number(p[1]).text(" ").number(p[2]).text("\n");
   for (const Triangle& t : mesh.triangles) {
@@ -112,7 +116,7 @@ void write_off(const SurfaceMesh& mesh, Buffer& out) {
   }
 }
 
-using Writer = void (*)(const SurfaceMesh&, Buffer&);
+using Writer = void (*)(const SurfaceMesh&, std::optional<std::size_t> measured, Buffer&);
 
 // Null where the extension names no surface format.
 Writer writer_for(const std::filesystem::path& file) {
@@ -134,14 +138,14 @@ std::string_view known_surface_formats() {
   return ".stl, .obj, .ply or .off";
 }
 
-void write_surface(const SurfaceMesh& mesh, const std::filesystem::path& file) {
+void write_surface(const SurfaceMesh& mesh, const std::filesystem::path& file, std::optional<std::size_t> measured) {
   const Writer write = writer_for(file);
   if (write == nullptr)
     throw WrongUsage({"the extension of the output names no surface format", file.string(), lower_case_extension(file),
                       std::string(known_surface_formats()), "one of these"});
   OutputFile output(file);
   Buffer buffer(output.stream());
-  write(mesh, buffer);
+  write(mesh, measured, buffer);
   buffer.flush();
   output.commit();
 }

@@ -76,13 +76,53 @@ void count_moves(const HalfedgeMesh& mesh, const std::vector<Vec3>& bases, Index
   }
 }
 
+// Numbered as in `to_surface`, which drops vertices without faces.
 std::vector<FeatureEdge> creases_of(const HalfedgeMesh& mesh, const SurfaceLabels& labels) {
+  std::vector<Index> number(mesh.vertex_slots(), 0);
+  for (Index v = 0, alive = 0; v < mesh.vertex_slots(); ++v)
+    if (mesh.is_alive(v)) number[v] = alive++;
   std::vector<FeatureEdge> edges;
   for (Index h = 0; h < 3 * mesh.face_slots(); ++h)
     if (mesh.is_face_alive(HalfedgeMesh::face(h)) && !mesh.is_border(h) && h < mesh.opposite(h) && labels.is_crease(h))
-      edges.push_back(feature_edge(mesh.origin(h), mesh.target(h)));
+      edges.push_back(feature_edge(number[mesh.origin(h)], number[mesh.target(h)]));
   std::sort(edges.begin(), edges.end());
   return edges;
+}
+
+// Takes away chains that end freely and are short: where a part's crease ends, it ends at others, or runs out in a
+// rounding. `shortest` in model units.
+void drop_spurs(const std::vector<Vec3>& points, double shortest, std::vector<FeatureEdge>& edges) {
+  std::vector<std::vector<std::size_t>> at(points.size());
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    for (const Index v : edges[e]) at[v].push_back(e);
+  std::vector<bool> dropped(edges.size(), false);
+  const auto degree = [&](Index v) {
+    return std::count_if(at[v].begin(), at[v].end(), [&](std::size_t e) { return !dropped[e]; });
+  };
+  for (bool any = true; any;) {
+    any = false;
+    for (Index start = 0; start < points.size(); ++start) {
+      if (at[start].empty() || degree(start) != 1) continue;
+      std::vector<std::size_t> chain;
+      double length = 0;
+      for (Index v = start; length < shortest;) {
+        const auto next = std::find_if(at[v].begin(), at[v].end(), [&](std::size_t e) {
+          return !dropped[e] && (chain.empty() || e != chain.back());
+        });
+        if (next == at[v].end()) break;
+        chain.push_back(*next);
+        length += (points[edges[*next][0]] - points[edges[*next][1]]).norm();
+        v = edges[*next][0] == v ? edges[*next][1] : edges[*next][0];
+        if (degree(v) != 2) break;
+      }
+      if (length >= shortest) continue;
+      for (const std::size_t e : chain) dropped[e] = any = true;
+    }
+  }
+  std::vector<FeatureEdge> kept;
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    if (!dropped[e]) kept.push_back(edges[e]);
+  edges = std::move(kept);
 }
 
 }  // namespace
@@ -108,6 +148,7 @@ EnrichResult enrich(SurfaceMesh& mesh, const EnrichOptions& options, const Progr
   result.creases = creases_of(surface, labels);
   result.primitives = found.list;
   mesh = surface.to_surface();
+  drop_spurs(mesh.vertices, 0.04 * bounding_box(mesh.vertices).diagonal(), result.creases);
   return result;
 }
 

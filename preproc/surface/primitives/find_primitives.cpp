@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
 namespace scan2fea {
@@ -62,10 +63,10 @@ Reach reach_of(const Shape& shape, const std::vector<Vec3>& points, const std::v
   return {high - low, gap < std::numbers::pi / 3 ? 360 : 360 - open * 180 / std::numbers::pi};
 }
 
-PrimitiveUse use_of(const Shape& shape, double turn_deg) {
+PrimitiveUse use_of(const Shape& shape, double turn_deg, bool tangent) {
   switch (shape.kind) {
     case ShapeKind::cylinder:
-      if (turn_deg > 180) return shape.hollow ? PrimitiveUse::hole : PrimitiveUse::boss;
+      if (turn_deg > (tangent ? 180 : 120)) return shape.hollow ? PrimitiveUse::hole : PrimitiveUse::boss;
       return shape.hollow ? PrimitiveUse::fillet : PrimitiveUse::rounding;
     case ShapeKind::torus:
     case ShapeKind::sphere:
@@ -79,7 +80,7 @@ void describe(const OrientedPoints& cloud, ShapeSet&& grown, Primitives& found) 
   for (const FoundShape& shape : grown.shapes) {
     const Reach reach = reach_of(shape.shape, cloud.points, shape.points);
     Primitive primitive{.shape = shape.shape,
-                        .use = use_of(shape.shape, reach.turn_deg),
+                        .use = use_of(shape.shape, reach.turn_deg, shape.relations.tangent_to.has_value()),
                         .points = shape.points.size(),
                         .fit = rms_distance(cloud, shape.shape, shape.points),
                         .extent = reach.extent,
@@ -95,6 +96,19 @@ void describe(const OrientedPoints& cloud, ShapeSet&& grown, Primitives& found) 
 
 std::string_view name_of(PrimitiveUse use) {
   return name_in(use_names, use);
+}
+
+std::string describe(const Primitive& primitive) {
+  const bool torus = primitive.shape.kind == ShapeKind::torus;
+  char text[160];
+  if (primitive.shape.kind == ShapeKind::plane || primitive.shape.kind == ShapeKind::cone)
+    std::snprintf(text, sizeof text, "%s, %s, %zu points, fit %.3g", std::string(name_of(primitive.use)).c_str(),
+                  std::string(name_of(primitive.shape.kind)).c_str(), primitive.points, primitive.fit);
+  else
+    std::snprintf(text, sizeof text, "%s, radius %.4g, %zu points, fit %.3g",
+                  std::string(name_of(primitive.use)).c_str(),
+                  torus ? primitive.shape.tube_radius : primitive.shape.radius, primitive.points, primitive.fit);
+  return text;
 }
 
 Primitives find_primitives(const std::vector<Vec3>& points, const Neighbours& neighbours,

@@ -14,6 +14,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -22,7 +23,7 @@ namespace scan2fea {
 // What an engineer calls it.
 enum class PrimitiveUse {
   face,      // a plane, a cone, or part of another shape that is none of the below
-  hole,      // an inner cylinder over more than half of its circumference
+  hole,      // an inner cylinder over half of its circumference; a third, where it is tangent to nothing
   boss,      // an outer one
   fillet,    // the rounding of an inner edge or corner: a hollow piece of cylinder, sphere or torus
   rounding,  // the same of an outer edge
@@ -39,6 +40,9 @@ struct Primitive {
   int degrees_of_freedom = 0;  // numbers that the points alone decide, relations aside
   ShapeRelations relations;    // that were imposed, to others in the list
 };
+
+// "hole, radius 5.99, 18 points, fit 0.004".
+std::string describe(const Primitive& primitive);
 
 enum class ScanKind {
   part,     // few shapes describe most points

@@ -55,7 +55,7 @@ ScanByShape prepare_by_shape(const PreparedScan& scan, const SizingOptions& sizi
   const double triangles = predicted_triangles(*mesh, {length});
   if (triangles > most_triangles)
     for (double& l : length) l *= std::sqrt(triangles / most_triangles);
-  if (!options.given_features)
+  if (!options.given_features || options.may_drop_given)
     creases = select_features(*mesh, std::move(creases), length, {.least_triangles = least_triangles});
   const CurveTolerance tolerance = scan.features().tolerance;
   return {std::make_shared<const PreparedScan>(scan.given, std::move(mesh), std::move(creases), tolerance),

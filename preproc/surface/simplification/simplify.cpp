@@ -185,7 +185,7 @@ Simplification::Simplification(const SurfaceMesh& scan, const SimplifyOptions& o
   state.of_scan.features = lines_of(scan, features.edges);
 
   std::vector<FeatureEdge> too_fine;
-  if (!options.given_features) {
+  if (!options.given_features || options.may_drop_given) {
     std::vector<FeatureEdge> all = std::move(features.edges);
     std::sort(all.begin(), all.end());
     features.edges = select_features(scan, all, edge);

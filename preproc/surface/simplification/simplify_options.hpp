@@ -58,6 +58,8 @@ struct SimplifyOptions {
   // no creases.
   FeatureOptions features;
   std::optional<FeatureLines> given_features;  // instead of those that would be found; see match_features.hpp
+  // Whether given creases that triangles of this size cannot keep are given up, as those found are.
+  bool may_drop_given = false;
   CollapseOptions collapse;  // objective, placement and cost of the `collapse` method; its face count is set by `size`
 };
 
