@@ -21,6 +21,9 @@ constexpr double farthest_share = 0.75;
 // Cosines: a face may lean so far from its primitive's normal, or from what it was.
 constexpr double least_on_primitive = 0.1, least_to_before = 0.2;
 
+// Of the mean edge: nearer to its primitive a point is on it.
+constexpr double rounding = 1e-7;
+
 struct Meeting {
   Vec3 point = Vec3::Zero();
   Vec3 base = Vec3::Zero();  // on the edge
@@ -30,7 +33,7 @@ struct Meeting {
 class Cutter {
  public:
   Cutter(HalfedgeMesh& mesh, SurfaceLabels& labels, ClearSurface& clear)
-      : mesh_(mesh), labels_(labels), clear_(clear) {}
+      : mesh_(mesh), labels_(labels), clear_(clear), edge_(mean_edge_length(mesh.to_surface())) {}
 
   CreaseCutResult run() {
     snap();
@@ -49,6 +52,7 @@ class Cutter {
     for (Index v = 0; v < mesh_.vertex_slots(); ++v) {
       if (!mesh_.is_alive(v) || labels_.of(v).size() != 1) continue;
       const Vec3 foot = labels_.shape(*labels_.of(v).begin()).foot(mesh_.points[v]);
+      if ((foot - mesh_.points[v]).norm() < rounding * edge_) continue;
       result_.snapped += move_if_sound(v, foot);
     }
   }
@@ -247,6 +251,7 @@ class Cutter {
   HalfedgeMesh& mesh_;
   SurfaceLabels& labels_;
   ClearSurface& clear_;
+  double edge_;  // mean, at the start
   CreaseCutResult result_;
 };
 

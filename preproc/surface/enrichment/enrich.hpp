@@ -34,7 +34,9 @@ using EnrichDomain = std::variant<WholeSurface, BoundingBox, Ball>;
 struct EnrichOptions {
   // R_s, the wanted spacing, model units, > 0. Not given: three quarters of the median distance of the sixth neighbour
   // in the domain, which levels out an uneven scan and about triples its points, and at least as much of the spacing of
-  // as many points spread evenly, which bounds the growth where most points crowd in one place. Before a
+  // as many points spread evenly, which bounds the growth where most points crowd in one place;
+  // nor less than a hundredth of the bounding box's diagonal, which is the edge length of usual meshes; and nothing is
+  // inserted where fewer than one point in fifty asks for it. So a scan that is dense enough stays as it is. Before a
   // simplification give the edge length that it will be asked for: then only places where the scan's own spacing
   // exceeds what the mesh needs are enriched, and none where there are points enough.
   std::optional<double> sampling_radius = {};

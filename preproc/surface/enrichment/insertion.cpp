@@ -77,7 +77,7 @@ class Inserter {
     result.sampling_radius = radius_;
     const ImportanceOptions condition{radius_, options_.most_neighbours, options_.empty_sector_deg};
     std::vector<Index> waiting = domain_;
-    bool inserted = true;
+    bool inserted = options_.sampling_radius.has_value() || is_wanting(condition);
     while (inserted && !waiting.empty() && radius_ > 0) {
       progress("enrich", 0.8 - 0.8 * static_cast<double>(waiting.size()) / static_cast<double>(domain_.size()));
       ++result.rounds;
@@ -107,12 +107,22 @@ class Inserter {
   // Where half of the points crowd in a small part of the surface the median tells about that part alone; as many
   // points spread evenly, in equilateral triangles, would have the other spacing.
   double default_radius(double area) {
-    constexpr double spacing_share = 0.75;
+    constexpr double spacing_share = 0.75, least_of_diagonal = 0.01;
     std::vector<Index> measured;
     for (const Index v : domain_)
       if (v < original_) measured.push_back(v);
     const auto points = static_cast<double>(std::max<std::size_t>(1, original_));
-    return spacing_share * std::max(importance_.median_spacing(measured), equilateral_edge(area, 2 * points));
+    return std::max(spacing_share * std::max(importance_.median_spacing(measured), equilateral_edge(area, 2 * points)),
+                    least_of_diagonal * bounding_box(mesh_.points).diagonal());
+  }
+
+  // Of a scan that is dense enough a few places look empty: flat lids of holes that were closed, for one. They stay as
+  // they are where nobody has asked for a spacing.
+  bool is_wanting(const ImportanceOptions& condition) {
+    constexpr std::size_t fewest = 50;  // one in so many
+    std::size_t wanting = 0;
+    for (const Index v : domain_) wanting += !importance_.empty_sectors(v, condition).empty();
+    return fewest * wanting > domain_.size();
   }
 
   void mark_creases() {

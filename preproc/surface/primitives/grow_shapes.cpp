@@ -18,6 +18,7 @@ namespace {
 constexpr std::size_t patch_size = 20;
 // The first planes must be none of the strips that a rounding has room for: ten points a degree of freedom.
 constexpr std::size_t least_first_plane = 30;
+constexpr std::size_t most_first_seeds = 8000;
 
 using Index = std::uint32_t;
 
@@ -219,7 +220,11 @@ class Grower {
     std::vector<bool> blended(cloud_.points.size(), false);
     std::vector<FoundShape> found;
     std::size_t tried = 0;
-    for (const Index seed : ordered_seeds()) {
+    const std::vector<Index> seeds = ordered_seeds();
+    // Where points are many, so are those of each shape that is strong enough to show that this is a part.
+    const std::size_t stride = is_part() ? 1 : std::max<std::size_t>(1, seeds.size() / most_first_seeds);
+    for (std::size_t k = 0; k < seeds.size(); k += stride) {
+      const Index seed = seeds[k];
       if (++tried % 256 == 0 && interrupt_) interrupt_();
       const std::vector<Index> patch = patch_of(seed);
       if (sought >= Sought::usual && !blended[seed])
