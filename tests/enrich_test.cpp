@@ -140,10 +140,10 @@ TEST(Enrich, PointsKeepTheirDistance) {
 TEST(Enrich, TopologyAndOriginalVerticesStay) {
   for (const Scan& scan : scans())
     for (const Lifting lifting : all_liftings)
-      for (const bool by_entropy : {false, true}) {
+      for (const std::optional<StarObjective> place_by :
+           {std::optional<StarObjective>(), std::optional(StarObjective::entropy_weighted)}) {
         SurfaceMesh mesh = scan.mesh;
-        const EnrichResult result =
-            enrich(mesh, {.primitives = false, .lifting = lifting, .place_by_entropy = by_entropy});
+        const EnrichResult result = enrich(mesh, {.primitives = false, .lifting = lifting, .place_by = place_by});
         const SurfaceValidity before = check_validity(scan.mesh), after = check_validity(mesh);
         EXPECT_TRUE(after.closed() && after.manifold());
         EXPECT_EQ(after.components, before.components);

@@ -216,6 +216,22 @@ void add_repair_flags(CLI::App& command, RepairOptions& options) {
 
 void add_enrich_flags(CLI::App& command, EnrichOptions& options) {
   command
+      .add_option_function<std::string>(
+          "--scheme",
+          [&options](const std::string& name) {
+            if (name == "literal") options = EnrichOptions::literal();
+          },
+          "literal: section 2 of the paper as it is written, for comparison; sound, the default")
+      ->check(CLI::IsMember({"sound", "literal"}))
+      ->type_name("NAME");
+  Choices<std::optional<StarObjective>> places;
+  for (const auto& [name, objective] :
+       named({StarObjective::entropy_weighted, StarObjective::shannon, StarObjective::a_entropy,
+              StarObjective::regularised_a_entropy, StarObjective::mean_edge_ratio}))
+    places.emplace_back(name, objective);
+  add_choice(command, "--place-by", options.place_by, places,
+             "Move new points to where this objective of their star is best; by default they stay on the bisector");
+  command
       .add_option("--sampling-radius", options.sampling_radius,
                   "R_s, the spacing that the points should have, model units; by default the scan's own, evened out")
       ->check(positive)

@@ -27,6 +27,9 @@ void check(const EnrichOptions& options) {
     refuse("number of neighbours out of range", static_cast<double>(options.most_neighbours), "3 to 20");
   if (!(options.empty_sector_deg >= 60 && options.empty_sector_deg <= 180))
     refuse("empty sector out of range", options.empty_sector_deg, "60 to 180 degrees");
+  if (!(options.separation > 0 && options.separation < options.placement_distance && options.placement_distance <= 1))
+    refuse("distance of new points out of range", options.placement_distance,
+           "above the separation, which is above 0, and at most 1");
 }
 
 Primitives primitives_of(const SurfaceMesh& mesh, const EnrichOptions& options, const Progress& progress) {
@@ -61,7 +64,7 @@ void lift_the_rest(HalfedgeMesh& mesh, ClearSurface& clear, const SurfaceLabels&
   }
   // Solved all at once, then gone to one by one, as far as nothing meets.
   const std::vector<Vec3> before = mesh.points;
-  triharmonic_lift(mesh, free, measured, {.hold = hold_against(found), .creases = inserted.on_crease});
+  triharmonic_lift(mesh, free, measured, {.hold = hold_against(found), .solves = 2, .creases = inserted.on_crease});
   std::vector<Vec3> targets = std::exchange(mesh.points, before);
   move_all(mesh, clear, targets);
 }
@@ -126,6 +129,16 @@ void drop_spurs(const std::vector<Vec3>& points, double shortest, std::vector<Fe
 }
 
 }  // namespace
+
+EnrichOptions EnrichOptions::literal() {
+  EnrichOptions options;
+  options.primitives = false;
+  options.lifting = Lifting::shepard;
+  options.place_by = StarObjective::a_entropy;
+  options.placement_distance = 1;
+  options.separation = 0.05;
+  return options;
+}
 
 EnrichResult enrich(SurfaceMesh& mesh, const EnrichOptions& options, const Progress& progress) {
   check(options);

@@ -18,6 +18,7 @@
 #include "preproc/mesh/surface_mesh.hpp"
 #include "preproc/surface/kernel/adjacency.hpp"
 #include "preproc/surface/placement/lifting.hpp"
+#include "preproc/surface/placement/star_objective.hpp"
 #include "preproc/surface/primitives/find_primitives.hpp"
 
 #include <cstddef>
@@ -32,6 +33,9 @@ struct WholeSurface {};
 using EnrichDomain = std::variant<WholeSurface, BoundingBox, Ball>;
 
 struct EnrichOptions {
+  // Section 2 of [1] as it is written, so far as that goes on a mesh: for comparison.
+  static EnrichOptions literal();
+
   // R_s, the wanted spacing, model units, > 0. Not given: three quarters of the median distance of the sixth neighbour
   // in the domain, which levels out an uneven scan and about triples its points, and at least as much of the spacing of
   // as many points spread evenly, which bounds the growth where most points crowd in one place;
@@ -56,9 +60,14 @@ struct EnrichOptions {
   // How the height is found where no primitive tells it. tests/benchmark/README.md has the errors of each.
   Lifting lifting = Lifting::triharmonic;
 
-  // Move each new point, before it is lifted, to where its star's Phi is best ([1] uses its entropy there). The
-  // place on the bisector is nearly as good already, and closer to the truth after lifting: off.
-  bool place_by_entropy = false;
+  // Move each new point, before it is lifted, to where this objective of its star is best ([1] takes an entropy there).
+  // The place on the bisector is nearly as good already, and closer to the truth after lifting: none.
+  std::optional<StarObjective> place_by = {};
+
+  // How far from the point that asks for it a new one is put, over R_s, and how near others may be. 1 and 0.05, with
+  // placement by the entropy, Shepard's lifting and no primitives, are [1] to the letter.
+  double placement_distance = 0.586;
+  double separation = 0.414;
 
   // Insertion stops here. A bound for mistaken units, not a setting.
   std::size_t most_new_vertices = 20'000'000;

@@ -18,10 +18,6 @@ namespace {
 using Index = HalfedgeMesh::Index;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// In R_s: the distance of a new point from the one that asks for it, and the least from any other; see enrich.hpp.
-constexpr double placement_distance = 0.586;
-constexpr double separation = 0.414;
-
 // A vertex asks at most this often: sectors of 90 degrees are filled by four. Where more are asked for, the surface is
 // so bent that points put into a sector are not seen in it.
 constexpr std::uint8_t most_requests = 6;
@@ -65,7 +61,8 @@ class Inserter {
     requests_.assign(mesh_.vertex_slots(), 0);
     mark_creases();
     if (radius_ > 0) {
-      const double packed = 2 * equilateral_area * separation * separation * radius_ * radius_;  // of each point
+      const double packed =
+          2 * equilateral_area * options.separation * options.separation * radius_ * radius_;  // of each point
       const double bound = std::min(2 * area / packed + 100, 1e9);
       most_new_vertices_ = std::min(options.most_new_vertices, static_cast<std::size_t>(bound));
     }
@@ -136,7 +133,7 @@ class Inserter {
 
   bool fill_one_of(Index v, const std::vector<Vec3>& bisectors) {
     for (const Vec3& direction : bisectors) {
-      const auto base = walk_straight(mesh_, v, normals_.mean(v), direction, placement_distance * radius_);
+      const auto base = walk_straight(mesh_, v, normals_.mean(v), direction, options_.placement_distance * radius_);
       if (base && insert(*base)) return true;
     }
     return false;
@@ -258,7 +255,7 @@ class Inserter {
       ++done_.result.not_lifted;
       return;
     }
-    if (options_.place_by_entropy) clear_.move(v, placed_by_entropy(v));
+    if (options_.place_by) clear_.move(v, placed_by_entropy(v));
     lift(v, seeds, mesh_.points[v]);
   }
 
@@ -298,7 +295,7 @@ class Inserter {
   bool has_room(const Triangle& seeds, const Vec3& point, const Vec3& normal, Index except) {
     bool room = true;
     nearest_.search(
-        seeds, point, separation * radius_,
+        seeds, point, options_.separation * radius_,
         [&](Index w) { return w != except && normals_.mean(w).dot(normal) > smallest_neighbour_cosine; },
         [&](Index, double) { return room = false; });
     return room;
@@ -307,7 +304,8 @@ class Inserter {
   Vec3 placed_by_entropy(Index v) {
     std::vector<Vec3> link;
     mesh_.for_each_neighbour(v, [&](Index w) { link.push_back(mesh_.points[w]); });
-    const PlaceVertexResult placed = place_vertex({mesh_.points[v], link}, star_normal(link));
+    const PlaceVertexResult placed =
+        place_vertex({mesh_.points[v], link}, star_normal(link), {.objective = *options_.place_by});
     const Triangle t = mesh_.triangle(HalfedgeMesh::face(mesh_.outgoing(v)));
     return placed.feasible && has_room(t, placed.position, normals_.mean(v), v) ? placed.position : mesh_.points[v];
   }

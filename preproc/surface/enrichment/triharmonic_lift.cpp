@@ -39,6 +39,7 @@ class Lifter {
   }
 
  private:
+  bool is_smooth_at(Index v) const { return !is_crease(v) && !mesh_.is_border_vertex(v); }
   bool is_crease(Index v) const { return !options_.creases.empty() && options_.creases[v]; }
 
   // What moves so far was not told by its neighbours: it goes back, and the next solve goes through it.
@@ -138,11 +139,12 @@ class Lifter {
     Sparse stiffness;
     Eigen::VectorXd mass;
     build_laplacian(stiffness, mass);
-    // Laplacians of vertices at the rim of what is looked at are not whole, and do not count; nor do those on creases.
+    // Laplacians of vertices at the rim of what is looked at are not whole, and do not
+    // count; nor do those on creases and borders.
     const auto n = static_cast<Eigen::Index>(near_.size());
     Eigen::VectorXd inverse = Eigen::VectorXd::Zero(n), kept = Eigen::VectorXd::Zero(n);
     for (Eigen::Index i = 0; i < n; ++i)
-      if (i < static_cast<Eigen::Index>(inner_) && !is_crease(near_[static_cast<std::size_t>(i)])) {
+      if (i < static_cast<Eigen::Index>(inner_) && is_smooth_at(near_[static_cast<std::size_t>(i)])) {
         kept[i] = 1;
         inverse[i] = 1 / mass[i];
       }
