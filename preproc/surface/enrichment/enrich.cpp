@@ -6,6 +6,7 @@
 #include "preproc/surface/enrichment/insertion.hpp"
 #include "preproc/surface/enrichment/triharmonic_lift.hpp"
 #include "preproc/surface/kernel/halfedge_mesh.hpp"
+#include "preproc/surface/primitives/point_normals.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -34,7 +35,13 @@ void check(const EnrichOptions& options) {
 
 Primitives primitives_of(const SurfaceMesh& mesh, const EnrichOptions& options, const Progress& progress) {
   if (options.primitives) return find_primitives(mesh, {}, progress);
+  // The noise is asked for all the same.
+  constexpr std::size_t neighbours_per_point = 20;
+  const PointNormals points =
+      own_side_normals(mesh.vertices, nearest_on_surface(mesh, neighbours_per_point), vertex_normals(mesh));
   Primitives none;
+  none.noise = points.noise;
+  none.spacing = points.spacing;
   none.labels.assign(mesh.vertices.size(), no_primitive);
   return none;
 }

@@ -10,7 +10,7 @@
 
 #include "preproc/mesh/progress.hpp"
 #include "preproc/surface/primitives/neighbours.hpp"
-#include "preproc/surface/primitives/shape_set.hpp"
+#include "preproc/surface/primitives/shape.hpp"
 
 #include <cstddef>
 #include <cstdint>

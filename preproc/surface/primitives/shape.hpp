@@ -6,6 +6,9 @@
 
 #include <Eigen/Core>
 
+#include <array>
+#include <cstdint>
+#include <optional>
 #include <string_view>
 
 namespace scan2fea {
@@ -35,6 +38,14 @@ struct Shape {
 
 // Numbers that describe the shape where nothing is known of it: 3 for a plane, 5, 6, 4, 7.
 int degrees_of_freedom(ShapeKind kind);
+
+// What a shape has from others, as places in a list of shapes.
+struct ShapeRelations {
+  std::optional<std::array<std::uint32_t, 2>> tangent_to;  // it then follows from these and its radius
+  std::optional<std::uint32_t> parallel_to;
+  std::optional<std::uint32_t> coaxial_to;
+  std::optional<std::uint32_t> same_radius_as;
+};
 
 // How the distance of a point changes with the shape, for fits.
 struct ShapeDerivatives {

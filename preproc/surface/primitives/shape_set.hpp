@@ -19,14 +19,6 @@ namespace scan2fea {
 
 inline constexpr std::uint32_t no_shape = ~std::uint32_t{0};
 
-// What a shape has from others, as places in the list of shapes.
-struct ShapeRelations {
-  std::optional<std::array<std::uint32_t, 2>> tangent_to;  // it then follows from these and its radius
-  std::optional<std::uint32_t> parallel_to;
-  std::optional<std::uint32_t> coaxial_to;
-  std::optional<std::uint32_t> same_radius_as;
-};
-
 struct FoundShape {
   Shape shape;
   ShapeFreedom freedom;               // what may still change; less than the kind has where relations hold it
