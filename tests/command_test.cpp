@@ -277,6 +277,8 @@ TEST_F(Command, OutputsAreDifferentFilesAndNoInputs) {
   expect_refused(surface + out + "--json '" + path("out.ply") + "'");
   expect_refused(surface + out + "--features '" + path("out.ply") + "'");
   expect_refused(surface + out + "--report '" + path("r") + "' --json '" + path("r/report.json") + "'");
+  expect_refused(surface + out + "--report '" + path("out.ply") + "'");
+  expect_refused(surface + out + "--features '" + path("r.obj") + "' --report '" + path("r.obj") + "'");
   expect_refused("check '" + scan + "' --force --json '" + scan + "'");
   expect_refused("check '" + path("link.ply") + "' --force --reference '" + scan + "' --json '" + scan + "'");
   expect_refused("convert '" + scan + "' --force -o '" + scan + "'");

@@ -87,6 +87,14 @@ TEST(ShapeLengths, AreNotThoseOfStripsThatTheShortestEdgesCannotPart) {
   EXPECT_DOUBLE_EQ(range(plate, [](const Vec3&) { return true; }).first, 30);
 }
 
+TEST(ShapeLengths, OfAWireOfSliversDoNotMakeMillionsOfThem) {
+  // Facets a thousand times as long as wide: each halving makes three slivers of one.
+  const Parted parted = part(analytic::cylinder(1, 300, 24, 1), 2, 0.3, 8000);
+  EXPECT_LE(parted.mesh.triangles.size(), 250000U);
+  EXPECT_EQ(parted.length.size(), parted.mesh.vertices.size());
+  for (const double length : parted.length) EXPECT_LE(length, 2);
+}
+
 TEST(IsPart, TellsPlanesFromFreeForms) {
   EXPECT_TRUE(is_part(analytic::box({3, 2, 1}, 0.2)));
   EXPECT_TRUE(is_part(analytic::cylinder(2, 10, 48, 20)));

@@ -72,7 +72,10 @@ std::vector<OutputPath> report_outputs(const CommonFlags& flags) {
 void require_writable(const std::vector<OutputPath>& outputs, const std::vector<fs::path>& inputs, bool force) {
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     const auto is_it = [&](const fs::path& other) { return are_same(outputs[i].file, other); };
-    const auto is_this = [&](const OutputPath& other) { return is_it(other.file); };
+    const auto is_this = [&](const OutputPath& other) {
+      return is_it(other.file) || (other.makes_folder && is_it(other.file.parent_path())) ||
+             (outputs[i].makes_folder && are_same(outputs[i].file.parent_path(), other.file));
+    };
     const bool is_input = std::any_of(inputs.begin(), inputs.end(), is_it);
     if (is_input || std::any_of(outputs.begin(), outputs.begin() + static_cast<std::ptrdiff_t>(i), is_this))
       throw WrongUsage({.what = is_input ? "the output is an input" : "two outputs are the same file",

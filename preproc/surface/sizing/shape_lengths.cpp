@@ -177,12 +177,23 @@ class ShapeLengths {
 std::vector<double> part_by_shape(SurfaceMesh& mesh, std::vector<FeatureEdge>& creases, double edges, double shortest,
                                   double longest, double most_triangles) {
   constexpr int most_rounds = 4;  // a long triangle hides what it lies between until it is parted
+  // Halves of slivers are slivers again, three of one: on a wire there would be millions, which say nothing more.
+  constexpr double most_faces = 250000, most_of_wanted = 4;
+  const double most = std::max(
+      {most_faces, most_of_wanted * static_cast<double>(mesh.triangles.size()), most_of_wanted * most_triangles});
   ShapeLengths shape(shortest, longest);
   std::vector<double> length(mesh.vertices.size(), longest);
   for (int round = 0;; ++round) {
-    const std::size_t before = mesh.vertices.size();
-    halve_long_edges(mesh, length, creases, edges, edges);
-    if (round == most_rounds || (round > 0 && mesh.vertices.size() == before)) return length;
+    SurfaceMesh parted = mesh;
+    std::vector<double> of_parted = length;
+    std::vector<FeatureEdge> its_creases = creases;
+    halve_long_edges(parted, of_parted, its_creases, edges, edges);
+    if (static_cast<double>(parted.triangles.size()) > most) return length;
+    const bool same = parted.vertices.size() == mesh.vertices.size();
+    mesh = std::move(parted);
+    length = std::move(of_parted);
+    creases = std::move(its_creases);
+    if (round == most_rounds || (round > 0 && same)) return length;
     std::sort(creases.begin(), creases.end());
     shape.renew(mesh, creases, length);
     length = shape.of_vertices(mesh.vertices.size());

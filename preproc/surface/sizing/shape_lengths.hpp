@@ -17,8 +17,10 @@ namespace scan2fea {
 //  - 0.6 of the width of the strip that it lies in, where two creases run side by side within 30 degrees.
 // Where all that asked for more than `most_triangles` triangles, the lengths are longer by one factor, beyond `longest`
 // if need be.
-// Vertices and triangles keep their numbers, new ones follow; `creases` are sorted, and halved with their edges.
-// Precondition: manifold, turned outwards. O(n log n) and the faces within `longest`, for a few rounds; parallel.
+// Edges stay longer where halving them would make more than 250,000 triangles, and four times as many as there were or
+// as may be asked for. Vertices and triangles keep their numbers, new ones follow; `creases` are sorted, and halved
+// with their edges. Precondition: manifold, turned outwards. O(n log n) and the faces within `longest`, for a few
+// rounds; parallel.
 std::vector<double> part_by_shape(SurfaceMesh& mesh, std::vector<FeatureEdge>& creases, double edges, double shortest,
                                   double longest, double most_triangles);
 
