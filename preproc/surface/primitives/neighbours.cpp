@@ -1,8 +1,7 @@
 #include "preproc/surface/primitives/neighbours.hpp"
 
 #include "preproc/mesh/face_neighbours.hpp"
-
-#include <nanoflann.hpp>
+#include "preproc/surface/kernel/point_neighbours.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -10,19 +9,6 @@
 
 namespace scan2fea {
 namespace {
-
-struct Cloud {
-  const std::vector<Vec3>& points;
-
-  std::size_t kdtree_get_point_count() const { return points.size(); }
-  double kdtree_get_pt(std::size_t i, std::size_t axis) const { return points[i][static_cast<Eigen::Index>(axis)]; }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-};
-
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Cloud>, Cloud, 3, std::uint32_t>;
 
 // Cosine of 102 degrees: the sides of a right-angled edge see each other, those of a wall do not.
 constexpr double least_cosine = -0.2;
@@ -60,20 +46,16 @@ Neighbours spread(const std::vector<Vec3>& points, std::size_t count, VisitNext 
 }  // namespace
 
 Neighbours nearest_in_space(const std::vector<Vec3>& points, const std::vector<Vec3>& normals, std::size_t count) {
-  const Cloud cloud{points};
-  const Tree tree(3, cloud, nanoflann::KDTreeSingleIndexAdaptorParams(10));
+  const PointNeighbours tree(points);
   // Where a wall is as thin as the spacing, half of those met are its other side's.
-  const std::size_t asked = (normals.empty() ? count : 2 * count) + 1;
-  std::vector<std::uint32_t> met(asked);
-  std::vector<double> distances(asked);
+  std::vector<PointNeighbours::Neighbour> met((normals.empty() ? count : 2 * count) + 1);
   Neighbours neighbours;
   for (std::uint32_t i = 0; i < points.size(); ++i) {
-    const std::size_t found = tree.knnSearch(points[i].data(), asked, met.data(), distances.data());
     std::size_t taken = 0;
-    for (std::size_t k = 0; k < found && taken < count; ++k) {
-      if (met[k] == i || (!normals.empty() && normals[met[k]].dot(normals[i]) < least_cosine)) continue;
-      neighbours.all.push_back(met[k]);
-      ++taken;
+    for (const auto& [point, distance] : tree.nearest(points[i], met)) {
+      if (point == i || (!normals.empty() && normals[point].dot(normals[i]) < least_cosine)) continue;
+      neighbours.all.push_back(point);
+      if (++taken == count) break;
     }
     neighbours.first.push_back(neighbours.all.size());
   }

@@ -22,7 +22,7 @@ struct Neighbours {
 };
 
 // The `count` points that are nearest in space and whose `normals` (one a point; or none at all) are not opposed: those
-// of the other side of a wall are no neighbours. k-d tree; O(n log n).
+// of the other side of a wall are no neighbours. At most 31. k-d tree; O(n log n).
 Neighbours nearest_in_space(const std::vector<Vec3>& points, const std::vector<Vec3>& normals, std::size_t count);
 
 // The `count` vertices met first when spreading from each vertex along edges, by distance in space. Vertices of no

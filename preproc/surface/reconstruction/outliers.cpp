@@ -1,7 +1,7 @@
 #include "preproc/surface/reconstruction/outliers.hpp"
 
 #include "preproc/surface/kernel/parallel_blocks.hpp"
-#include "preproc/surface/reconstruction/point_neighbours.hpp"
+#include "preproc/surface/kernel/point_neighbours.hpp"
 
 #include <Eigen/Eigenvalues>
 

@@ -4,7 +4,7 @@
 #include "preproc/mesh/error_text.hpp"
 #include "preproc/surface/reconstruction/clean_cloud.hpp"
 #include "preproc/surface/reconstruction/consistent_surface.hpp"
-#include "preproc/surface/reconstruction/point_neighbours.hpp"
+#include "preproc/surface/kernel/point_neighbours.hpp"
 #include "preproc/surface/reconstruction/poisson.hpp"
 #include "preproc/surface/reconstruction/surface_patches.hpp"
 

@@ -2,7 +2,7 @@
 
 #include "preproc/mesh/morton_code.hpp"
 #include "preproc/surface/kernel/parallel_blocks.hpp"
-#include "preproc/surface/reconstruction/point_neighbours.hpp"
+#include "preproc/surface/kernel/point_neighbours.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <tbb/parallel_sort.h>

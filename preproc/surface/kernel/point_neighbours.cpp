@@ -1,4 +1,4 @@
-#include "preproc/surface/reconstruction/point_neighbours.hpp"
+#include "preproc/surface/kernel/point_neighbours.hpp"
 
 #include "preproc/surface/kernel/parallel_blocks.hpp"
 

@@ -22,8 +22,8 @@ class PointNeighbours {
     std::uint32_t point;
     double distance;
   };
-  // The nearest points, a point of the cloud itself included, nearest first and ties by index; as many as `found` has
-  // room for and the cloud has points. Returns the part that was filled. From any number of threads.
+  // The nearest points, 64 at most, one of the cloud itself included, nearest first, ties by index; as many as `found`
+  // has room for and the cloud has points. Returns the part that was filled. From any number of threads.
   std::span<Neighbour> nearest(const Vec3& p, std::span<Neighbour> found) const;
 
  private:
