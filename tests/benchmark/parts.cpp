@@ -58,6 +58,21 @@ Region bracket(int pieces) {
   return region;
 }
 
+// A foot with two ribs, their tops round and their roots filleted, and holes through the foot and the ribs.
+Region ribs(int pieces) {
+  Loop outline{Point(0, 0), Point(90, 0), Point(90, 16)};
+  for (const double x : {65.0, 25.0}) {
+    add_arc(outline, Point(x + 11, 20), 4, 270, 180, pieces);
+    add_arc(outline, Point(x, 40), 7, 0, 180, 2 * pieces);
+    add_arc(outline, Point(x - 11, 20), 4, 0, -90, pieces);
+  }
+  outline.emplace_back(0, 16);
+  Region region{{outline}, {}};
+  for (const Point& p : {Point(10, 8), Point(45, 8), Point(80, 8), Point(25, 38), Point(65, 38)})
+    add_hole(region, p, 4.5, 4 * pieces);
+  return region;
+}
+
 SurfaceMesh cube_of_twelve() {
   return extrude(triangulate(rectangle(1, 1), std::nullopt), 1, 1);
 }
@@ -91,6 +106,7 @@ int main(int argc, char** argv) {
     write(extrude(triangulate(disc50, 2), 3, 3), "coin.ply");
     write(extrude(triangulate(bracket(24), 1.3), 10, 10), "bracket.ply");
     write(extrude(triangulate(bracket(4), std::nullopt), 10, 1), "coarse-bracket.ply");
+    write(extrude(triangulate(ribs(24), 1.5), 12, 9), "ribs.ply");
     if (argc == 3) {
       const SurfaceMesh fandisk = read_surface(argv[2]);
       const double diagonal = bounding_box(fandisk.vertices).diagonal();
