@@ -1,5 +1,6 @@
 #include "preproc/surface/repair/intersection_removal.hpp"
 
+#include "preproc/mesh/union_find.hpp"
 #include "preproc/surface/repair/border_stitching.hpp"
 #include "preproc/surface/repair/crossing_union.hpp"
 #include "preproc/surface/repair/degenerate_faces.hpp"
@@ -15,6 +16,7 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <span>
 
 namespace scan2fea {
 namespace {
@@ -103,13 +105,15 @@ void fill(SurfaceMesh& mesh, const Twins& twins, const std::vector<BorderLoop>& 
   result.faces_added += mesh.triangles.size() - before;
 }
 
-// The pairs become those of the surface of the union, with one fan of faces per vertex. Slivers as narrow as rounding
-// may be missing from it, and are filled in; where more is missing there is no union.
-void unite(SurfaceMesh& mesh, std::vector<FacePair>& pairs, Crossings which, RepairResult& result) {
+// Unites what crosses in some of the pairs, which all become those of the surface of the union, with one fan of faces
+// per vertex. Slivers as narrow as rounding may be missing from it, and are filled in; where more is missing there is
+// no union.
+void unite(SurfaceMesh& mesh, std::vector<FacePair>& pairs, std::span<const FacePair> of_them, Crossings which,
+           RepairResult& result) {
   constexpr double most_filled_of_area = 1e-6;
   SurfaceMesh united = mesh;
   RepairResult of_the_union;
-  if (!unite_crossings(united, pairs, which, of_the_union)) return;
+  if (!unite_crossings(united, of_them, which, of_the_union)) return;
   RepairResult of_its_rounding;  // what follows from it: nothing to report
   stitch_borders(united, of_its_rounding);
   const Twins twins = make_manifold(united, of_its_rounding);
@@ -126,6 +130,30 @@ void unite(SurfaceMesh& mesh, std::vector<FacePair>& pairs, Crossings which, Rep
   result.faces_removed += of_the_union.faces_removed + of_its_rounding.faces_removed;
 }
 
+// The pairs of crossings that cut whole faces off the rest of their shell, as where a tube passes through itself. Folds
+// of noise, which smoothing undoes without the loss of a face, are no deeper than the faces that cross.
+std::vector<FacePair> deep_crossings(const SurfaceMesh& mesh, std::vector<FacePair> pairs) {
+  const FaceMarks marks = marks_of(pairs, mesh.triangles.size());
+  const FacePieces shells = find_pieces(mesh, marks, std::nullopt);
+  const FacePieces rest = find_pieces(mesh, marks, 0);
+  const FacePieces crossing = find_pieces(mesh, marks, 1);
+  std::vector<double> largest(shells.area.size(), 0);
+  for (std::uint32_t f = 0; f < marks.size(); ++f)
+    if (!marks[f]) largest[shells.of_face[f]] = std::max(largest[shells.of_face[f]], rest.area[rest.of_face[f]]);
+  std::vector<char> of_island(mesh.vertices.size(), 0), deep(crossing.area.size(), 0);
+  for (std::uint32_t f = 0; f < marks.size(); ++f)
+    if (!marks[f] && rest.area[rest.of_face[f]] < largest[shells.of_face[f]])
+      for (const std::uint32_t v : mesh.triangles[f]) of_island[v] = 1;
+
+  UnionFind joined(crossing.area.size());
+  for (const FacePair& pair : pairs) joined.unite(crossing.of_face[pair.face], crossing.of_face[pair.other]);
+  for (std::uint32_t f = 0; f < marks.size(); ++f)
+    for (const std::uint32_t v : mesh.triangles[f])
+      if (marks[f] && of_island[v]) deep[joined.find(crossing.of_face[f])] = 1;
+  std::erase_if(pairs, [&](const FacePair& pair) { return !deep[joined.find(crossing.of_face[pair.face])]; });
+  return pairs;
+}
+
 }  // namespace
 
 IntersectionRemoval remove_intersections(SurfaceMesh& mesh, RepairResult& result, const Progress& progress) {
@@ -134,11 +162,12 @@ IntersectionRemoval remove_intersections(SurfaceMesh& mesh, RepairResult& result
   if (pairs.empty()) return {};
   const bool closed = Borders(mesh).empty();
   if (closed && drop_repeated_shells(mesh, pairs, result)) pairs = find_self_intersections(mesh);
-  if (closed && !pairs.empty()) unite(mesh, pairs, Crossings::between_shells, result);
+  if (closed && !pairs.empty()) unite(mesh, pairs, pairs, Crossings::between_shells, result);
   if (!pairs.empty() && part_touching_shells(mesh, pairs, result)) pairs = find_self_intersections(mesh);
   if (!pairs.empty() && part_touching_vertices(mesh, pairs, result)) pairs = find_self_intersections(mesh);
+  if (closed && !pairs.empty()) unite(mesh, pairs, deep_crossings(mesh, pairs), Crossings::within_shells, result);
   if (!pairs.empty()) pairs = smooth_folds(mesh, std::move(pairs), result);
-  if (closed && !pairs.empty()) unite(mesh, pairs, Crossings::within_shells, result);
+  if (closed && !pairs.empty()) unite(mesh, pairs, pairs, Crossings::within_shells, result);
 
   IntersectionRemoval removal;
   std::size_t faces_of_input = mesh.triangles.size();  // they come first, patches after them
