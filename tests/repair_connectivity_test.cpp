@@ -81,6 +81,28 @@ TEST(RepairConnectivity, BoxesThatShareAVertexComeApart) {
   EXPECT_NEAR(enclosed_volume(mesh), 2, 1e-12);
 }
 
+// Of a body that touches itself, or others in a ring, none can be moved as a whole.
+TEST(RepairConnectivity, WhatTouchesAtEdgesIsPartedByAMillionth) {
+  SurfaceMesh checker, winding = unit_box(1);
+  for (int i = 0; i < 27; ++i)
+    if (i % 2 == 0) checker = analytic::join(checker, analytic::moved(unit_box(1), Vec3(i % 3, i / 3 % 3, i / 9)));
+  for (const Vec3& at : {Vec3(1, 0, 0), Vec3(2, 0, 0), Vec3(2, 0, 1), Vec3(2, 1, 1), Vec3(1, 1, 1)})
+    winding = analytic::join(winding, analytic::moved(unit_box(1), at));
+  for (const SurfaceMesh& touching : {checker, winding}) {
+    SurfaceMesh mesh = welded(touching);
+    const double volume = enclosed_volume(mesh), diagonal = bounding_box(mesh.vertices).diagonal();
+    const RepairResult result = repair(mesh);
+    expect_sound(mesh);
+    EXPECT_GT(result.count(RepairKind::PartedTouch), 0U);
+    EXPECT_EQ(result.count(RepairKind::SmoothedFold), 0U);
+    for (const RepairChange& change : result.changes)
+      if (change.kind == RepairKind::PartedTouch) {
+        EXPECT_LE(change.size, 1.01e-6 * diagonal);
+      }
+    EXPECT_NEAR(enclosed_volume(mesh), volume, 1e-4 * volume);
+  }
+}
+
 TEST(RepairConnectivity, SoupOfSeparateFacesIsWelded) {
   const SurfaceMesh box = unit_box(4);
   SurfaceMesh mesh = torn(box);

@@ -11,6 +11,8 @@
 namespace scan2fea {
 namespace {
 
+constexpr double parted_by_of_diagonal = 1e-6;
+
 Vec3 centre_of_ring(const SurfaceMesh& mesh, const VertexStars& stars, std::uint32_t v) {
   Vec3 sum = Vec3::Zero();
   const auto corners = stars.corners(v);
@@ -37,7 +39,6 @@ bool put_back_folds(SurfaceMesh& mesh, const std::vector<Vec3>& before, const Fa
 }  // namespace
 
 bool part_touching_shells(SurfaceMesh& mesh, const std::vector<FacePair>& pairs, RepairResult& result) {
-  constexpr double of_diagonal = 1e-6;
   const std::vector<Shell> shells = find_shells(mesh);
   const std::vector<std::uint32_t> shell_of_face = shell_of_faces(shells, mesh.triangles.size());
   std::vector<Vec3> away(shells.size(), Vec3::Zero());
@@ -51,7 +52,7 @@ bool part_touching_shells(SurfaceMesh& mesh, const std::vector<FacePair>& pairs,
       away[b] -= apart;
   }
   bool any = false;
-  const double distance = of_diagonal * bounding_box(mesh.vertices).diagonal();
+  const double distance = parted_by_of_diagonal * bounding_box(mesh.vertices).diagonal();
   for (std::uint32_t s = 0; s < shells.size(); ++s) {
     if (away[s].isZero()) continue;
     FaceMarks marks(mesh.triangles.size(), 0);
@@ -71,7 +72,7 @@ bool part_touching_shells(SurfaceMesh& mesh, const std::vector<FacePair>& pairs,
 }
 
 bool part_touching_vertices(SurfaceMesh& mesh, const std::vector<FacePair>& pairs, RepairResult& result) {
-  constexpr double fraction = 0.01;
+  constexpr double most_of_ring = 0.01;  // of small faces
   std::vector<std::uint32_t> candidates = vertices_of(mesh, marks_of(pairs, mesh.triangles.size()));
   const auto less = [&](std::uint32_t a, std::uint32_t b) {
     const Vec3 &p = mesh.vertices[a], &q = mesh.vertices[b];
@@ -79,6 +80,7 @@ bool part_touching_vertices(SurfaceMesh& mesh, const std::vector<FacePair>& pair
   };
   std::stable_sort(candidates.begin(), candidates.end(), less);
 
+  const double distance = parted_by_of_diagonal * bounding_box(mesh.vertices).diagonal();
   const VertexStars stars(mesh);
   std::vector<std::pair<std::uint32_t, Vec3>> moves;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
@@ -86,7 +88,8 @@ bool part_touching_vertices(SurfaceMesh& mesh, const std::vector<FacePair>& pair
                          (i + 1 < candidates.size() && !less(candidates[i], candidates[i + 1]));
     if (!touches) continue;
     const std::uint32_t v = candidates[i];
-    moves.emplace_back(v, fraction * (centre_of_ring(mesh, stars, v) - mesh.vertices[v]));
+    const Vec3 to_centre = centre_of_ring(mesh, stars, v) - mesh.vertices[v];
+    moves.emplace_back(v, to_centre * std::min(most_of_ring, distance / std::max(to_centre.norm(), distance)));
   }
   for (const auto& [v, move] : moves) {
     result.changes.push_back({RepairKind::PartedTouch, mesh.vertices[v], move.norm()});

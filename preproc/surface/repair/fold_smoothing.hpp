@@ -14,8 +14,9 @@ namespace scan2fea {
 // Returns whether any moved. Precondition: `pairs` are the surface's intersecting pairs; manifold.
 bool part_touching_shells(SurfaceMesh& mesh, const std::vector<FacePair>& pairs, RepairResult& result);
 
-// Vertices of intersecting faces that lie at the very same place are drawn a hundredth of the way to the mean of their
-// neighbours. Returns whether there were any. Precondition: `pairs` are the surface's intersecting pairs; manifold.
+// Vertices of intersecting faces that lie at the very same place are drawn towards the mean of their neighbours by a
+// millionth of the surface's diagonal, but no more than a hundredth of the way. Returns whether there were any.
+// Precondition: `pairs` are the surface's intersecting pairs; manifold.
 bool part_touching_vertices(SurfaceMesh& mesh, const std::vector<FacePair>& pairs, RepairResult& result);
 
 // Vertices of intersecting faces move half way to the mean of their neighbours until their faces are clear, no farther
