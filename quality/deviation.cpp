@@ -101,10 +101,11 @@ Distances measure_side(const Surface& from, const Surface& to, std::size_t sampl
   return all;
 }
 
-std::optional<double> volume_of(const SurfaceMesh& mesh) {
-  if (!check_validity(mesh).encloses_volume()) return std::nullopt;
-  const double volume = std::abs(enclosed_volume(mesh));
-  return volume > 0 ? std::optional(volume) : std::nullopt;
+std::optional<double> volume_of(const Surface& surface) {
+  if (!check_validity(surface.mesh).encloses_volume()) return std::nullopt;
+  const double volume = std::abs(enclosed_volume(surface.mesh));
+  const bool is_flat = volume <= least_volume_of_area * std::pow(surface.area(), 1.5);
+  return is_flat ? std::nullopt : std::optional(volume);
 }
 
 void require_area(const Surface& surface, const std::string& which) {
@@ -124,8 +125,8 @@ Deviation measure_deviation(const SurfaceMesh& mesh, const SurfaceMesh& referenc
   require_area(other, "reference");
 
   Deviation deviation;
-  const auto volume = volume_of(mesh);
-  const auto reference_volume = options.reference_volume ? options.reference_volume : volume_of(reference);
+  const auto volume = volume_of(own);
+  const auto reference_volume = options.reference_volume ? options.reference_volume : volume_of(other);
   if (volume && reference_volume)
     deviation.volume_difference_pct = 100 * (*volume - *reference_volume) / *reference_volume;
   deviation.area_difference_pct = 100 * (own.area() - other.area()) / other.area();

@@ -30,7 +30,7 @@ struct OneSidedDistance {
 
 struct Deviation {
   // Of the enclosed volumes' sizes, (mesh - reference) / reference in per cent; nothing if one of the two encloses
-  // none.
+  // none, or as little as a sheet with two sides.
   std::optional<double> volume_difference_pct;
   double area_difference_pct = 0;
   double hausdorff_pct_diagonal = 0;   // the larger of the two sides; per cent of the reference's bounding-box diagonal

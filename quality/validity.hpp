@@ -9,6 +9,10 @@
 
 namespace scan2fea {
 
+// A surface of less volume over area^1.5 is flat. That is 0.094 for a ball and 3.5e-4 for a plate a thousandth as thick
+// as wide; rounding in a flat surface of 32-bit floats leaves about 1e-8.
+constexpr double least_volume_of_area = 1e-6;
+
 struct SurfaceValidity {
   std::size_t degenerate_faces = 0;    // faces that name a vertex twice; the figures below leave them out
   std::size_t unused_vertices = 0;     // vertices of no face

@@ -75,6 +75,16 @@ TEST(Deviation, OpenSurfacesHaveNoVolumeDifference) {
   EXPECT_FALSE(measure_deviation(analytic::sphere(1, 2), open, few_samples).volume_difference_pct.has_value());
 }
 
+// A sheet and its back enclose what rounding leaves; a thin plate has a volume.
+TEST(Deviation, DoubledSheetsHaveNoVolumeDifference) {
+  const SurfaceMesh plate = analytic::box({30, 20, 0.03}, 1);
+  SurfaceMesh doubled = plate;
+  for (Vec3& v : doubled.vertices) v.z() = 1e-7 * std::sin(v.x() + 2 * v.y());
+  EXPECT_FALSE(measure_deviation(plate, doubled, few_samples).volume_difference_pct.has_value());
+  EXPECT_FALSE(measure_deviation(doubled, plate, few_samples).volume_difference_pct.has_value());
+  EXPECT_TRUE(measure_deviation(plate, plate, few_samples).volume_difference_pct.has_value());
+}
+
 TEST(Deviation, InsideOutIsTheSameVolume) {
   const SurfaceMesh ball = analytic::sphere(1, 2);
   EXPECT_NEAR(*measure_deviation(analytic::reversed(ball), ball, few_samples).volume_difference_pct, 0, 1e-12);

@@ -18,10 +18,6 @@
 namespace scan2fea {
 namespace {
 
-// Volume over area^1.5 is 0.094 for a ball and 3.5e-4 for a plate a thousandth as thick as wide; rounding in a flat
-// surface of 32-bit floats leaves about 1e-8.
-constexpr double least_volume_of_area = 1e-6;
-
 // Cutting out more would make another shape of the scan.
 constexpr double most_cut_of_area = 1.0 / 3;
 
