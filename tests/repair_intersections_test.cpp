@@ -29,6 +29,8 @@ TEST(RepairIntersections, CrossingSolidsBecomeOne) {
   const double d = Vec3(distance, 0.07, 0.03).norm();
   const double lens = std::numbers::pi * (4 + d) * (2 - d) * (2 - d) / 12;
   EXPECT_NEAR(enclosed_volume(mesh), 2 * enclosed_volume(ball) - lens, 0.01);
+  EXPECT_EQ(result.count(RepairKind::DroppedInside), 2u);
+  EXPECT_NEAR(result.total_size(RepairKind::DroppedInside), 2 * surface_area(ball) - surface_area(mesh), 1e-5);
 }
 
 TEST(RepairIntersections, BoxesThatTouchAlongFacesBecomeOne) {
@@ -37,6 +39,27 @@ TEST(RepairIntersections, BoxesThatTouchAlongFacesBecomeOne) {
   expect_sound(mesh);
   EXPECT_EQ(check_validity(mesh).components, 1u);
   EXPECT_NEAR(enclosed_volume(mesh), 5, 1e-9);
+}
+
+// Whether the faces of the two are the same, others of the same outline, or neither.
+TEST(RepairIntersections, WhereSolidsTouchBothFacesAreLost) {
+  const SurfaceMesh box = analytic::box({2, 2, 2}, 1);
+  for (const SurfaceMesh& other :
+       {analytic::moved(box, {0, 0, 2}), analytic::moved(analytic::box({2, 2, 1}, 0.5), {0, 0, 2}),
+        analytic::moved(box, {0.7, 0.3, 2}), analytic::moved(unit_box(1), {0.2, 0.6, 2})}) {
+    SurfaceMesh mesh = analytic::join(box, other);
+    const double area = surface_area(mesh);
+    const RepairResult result = repair(mesh);
+    expect_sound(mesh);
+    double lost = 0;
+    for (const RepairChange& change : result.changes)
+      if (is_lost(change.kind)) {
+        lost += change.area;
+        EXPECT_NEAR(change.place.z(), 2, 1e-5);
+      }
+    EXPECT_NEAR(lost, area - surface_area(mesh), 1e-5);
+    EXPECT_GE(lost, 2 - 1e-5);
+  }
 }
 
 TEST(RepairIntersections, BoxWithinABoxThatReachesOutIsUnited) {

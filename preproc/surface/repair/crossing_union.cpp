@@ -260,6 +260,43 @@ std::optional<Union> unite_if_closed(Part& part, Crossings which, const Predicat
   return last;
 }
 
+// What of the faces no triangle of the union shows, in pieces of faces that share vertices. Less than the tolerance
+// about a face may be its rounding.
+void log_lost(const Part& part, const Union& made, RepairResult& result) {
+  const std::size_t count = part.mesh.triangles.size();
+  const double tolerance = tolerance_of(part.mesh);
+  std::vector<double> area(count);
+  std::vector<Vec3> weighted(count);  // places by area
+  for (std::uint32_t f = 0; f < count; ++f) {
+    area[f] = area_of(part.mesh, f);
+    weighted[f] = area[f] * centre_of(part.mesh, f);
+  }
+  const SurfaceMesh& cut = made.arrangement.mesh;
+  for (std::uint32_t f = 0; f < cut.triangles.size(); ++f) {
+    if (!made.kept[f]) continue;
+    area[made.arrangement.face_of[f]] -= area_of(cut, f);
+    weighted[made.arrangement.face_of[f]] -= area_of(cut, f) * centre_of(cut, f);
+  }
+  FaceMarks lost(count, 0);
+  for (std::uint32_t f = 0; f < count; ++f) {
+    const Triangle& t = part.mesh.triangles[f];
+    double outline = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+      outline += (part.mesh.vertices[t[i]] - part.mesh.vertices[t[(i + 1) % 3]]).norm();
+    lost[f] = area[f] > tolerance * outline;
+  }
+  const FacePieces pieces = find_pieces(part.mesh, lost, 1);
+  std::vector<double> of_piece(pieces.area.size(), 0);
+  std::vector<Vec3> place(pieces.area.size(), Vec3::Zero());
+  for (std::uint32_t f = 0; f < count; ++f)
+    if (lost[f]) {
+      of_piece[pieces.of_face[f]] += area[f];
+      place[pieces.of_face[f]] += weighted[f];
+    }
+  for (std::size_t i = 0; i < of_piece.size(); ++i)
+    result.changes.push_back({RepairKind::DroppedInside, place[i] / of_piece[i], of_piece[i], of_piece[i]});
+}
+
 // The corners may begin at another one.
 bool is_same(Triangle a, const Triangle& b) {
   for (int i = 0; i < 3 && a != b; ++i) std::rotate(a.begin(), a.begin() + 1, a.end());
@@ -296,6 +333,7 @@ bool unite_crossings(SurfaceMesh& mesh, std::span<const FacePair> pairs, Crossin
       else
         added.push_back(t);
     }
+    log_lost(part, *made, result);
     for (const std::size_t s : set.shells)
       result.changes.push_back({RepairKind::UnitedShell, (shells[s].box.low + shells[s].box.high) / 2, shells[s].area});
   }

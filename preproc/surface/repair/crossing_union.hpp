@@ -21,7 +21,8 @@ enum class Crossings {
 // more than eight pairs a face.
 //
 // Solids that touch along faces, within four steps of 32-bit floats, become one wherever they lie in space, as long as
-// any of their faces meet at all. A union that would lose volume of a solid is not made.
+// any of their faces meet at all. A union that would lose volume of a solid is not made. What it leaves out of
+// the faces is logged, with its area and its place.
 //
 // `pairs` are the surface's intersecting pairs. Faces that nothing crosses stay where they are or go; new ones come
 // last. Vertices stay bit by bit; new ones, where shells cross, are rounded, which can make their faces cross again by

@@ -22,7 +22,7 @@ enum class RepairKind {
   DroppedSpeck,      // a body that is not to stay (RepairOptions::bodies); size: its area
   FilledCavity,      // a cavity too small to matter, left out; size: its area
   DroppedFragment,   // an open or flat component that holds no volume (RepairOptions::fragment_of_area); size: its area
-  DroppedInside,     // a piece that lay inside the solid after parts were joined or cut; size: its area
+  DroppedInside,     // what lay inside the solid after parts were joined or cut; size: its area
   RepeatedShell,     // a body that crosses another and lies along all of it (repeated_shells.hpp); size: its area
   ThickenedSheet,    // an open sheet made a solid (RepairOptions::thickness); size: the thickness
   ClosedHole,        // size: the diagonal of its border's bounding box
