@@ -1,6 +1,7 @@
 // How far a repair goes, and what it tells of what it left out or made up.
 #include "preproc/surface/repair/repair.hpp"
 #include "preproc/surface/repair/solid_volume.hpp"
+#include "tests/error_from.hpp"
 #include "tests/surfaces_to_repair.hpp"
 
 #include <gmock/gmock.h>
@@ -103,6 +104,9 @@ TEST(RepairLevels, BodiesThatAreKeptAreChosen) {
   EXPECT_EQ(bodies(LargestBodies{1}), 1u);
   EXPECT_EQ(bodies(LargestBodies{2}), 2u);
   EXPECT_EQ(bodies(BodiesAbove{2}), 2u);
+  SurfaceMesh mesh = all;
+  const auto error = error_from<NotMeshable>([&] { repair(mesh, {.bodies = BodiesAbove{1000}}); });
+  EXPECT_THAT(error.what(), testing::HasSubstr("--keep"));
 }
 
 TEST(RepairLevels, ACavityGoesWithItsBody) {

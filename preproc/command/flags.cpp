@@ -75,7 +75,8 @@ RelativeLength parse_length(const std::string& flag, const std::string& text, ch
   char* end = nullptr;
   length.value = std::strtod(number.c_str(), &end);
   if (number.empty() || *end != '\0' || !std::isfinite(length.value) || length.value <= 0)
-    throw CLI::ValidationError(flag, "'" + text + "' is no length above 0, as 0.5 or 0.5" + suffix + " are");
+    throw CLI::ValidationError(flag, "'" + text + "' is no length above 0, as 0.5" +
+                                         (suffix == no_suffix ? " is" : std::string(" or 0.5") + suffix + " are"));
   if (suffix == '%' && length.relative) length.value /= 100;
   return length;
 }
@@ -196,10 +197,10 @@ void add_repair_flags(CLI::App& command, RepairOptions& options) {
           [&options](const std::string& text) {
             const std::size_t colon = text.find(':');
             const std::string side = colon == std::string::npos ? "both" : text.substr(colon + 1);
-            const RelativeLength length = parse_length("--thickness", text.substr(0, colon), '%');
+            const RelativeLength length = parse_length("--thickness", text.substr(0, colon), no_suffix);
             const auto named = std::find_if(thicken_sides.begin(), thicken_sides.end(),
                                             [&](const auto& choice) { return choice.first == side; });
-            if (length.relative || named == thicken_sides.end())
+            if (named == thicken_sides.end())
               throw CLI::ValidationError("--thickness", "'" + text + "' is no length with :both, :front or :back");
             options.thickness = Thickness{length.value, named->second};
           },

@@ -36,6 +36,7 @@ struct RelativeLength {
 };
 
 // "0.5" or, with the suffix, "0.1%" (returned as 0.001) or "1.6x". Throws CLI::ValidationError.
+inline constexpr char no_suffix = 0;
 RelativeLength parse_length(const std::string& flag, const std::string& text, char suffix);
 
 // The size flags; at most one is set.

@@ -63,8 +63,14 @@ void drop_flat_shells(SurfaceMesh& mesh, const RepairOptions& options, RepairRes
 }
 
 // Where no face has an area, or none of a solid, each step leaves out what it should, and all of it.
-void require_some(const SurfaceMesh& mesh, const RepairResult& result) {
+void require_some(const SurfaceMesh& mesh, const KeptBodies& bodies, const RepairResult& result) {
   if (!mesh.triangles.empty()) return;
+  if (const auto* above = std::get_if<BodiesAbove>(&bodies); above && result.count(RepairKind::DroppedSpeck) > 0)
+    throw NotMeshable({.what = "nothing is left of the surface: no body is large enough to be kept",
+                       .where = {},
+                       .value = {},
+                       .limit = "a diagonal of " + error_text(above->diagonal),
+                       .advice = "a smaller length for --keep"});
   throw NotMeshable({.what = "nothing is left of the surface: no part of it encloses a volume",
                      .where = result.changes.empty() ? std::string() : error_text(result.changes.back().place),
                      .value = std::to_string(result.changes.size()) + " changes",
@@ -149,7 +155,7 @@ RepairResult climb(SurfaceMesh& mesh, const RepairOptions& options, const Progre
   else
     mend_crossings(mesh, options, result, progress);
   drop_unused_vertices(mesh);
-  require_some(mesh, result);
+  require_some(mesh, options.bodies, result);
   return result;
 }
 
