@@ -79,8 +79,9 @@ class Quadric {
     const double total = matrix_(0, 0);
     matrix_.diagonal().array() += 1e-9 * total;
     matrix_.diagonal().tail<3>().array() += 1e-4 * total;
-    factors_.compute(matrix_);
-    coefficients_ = factors_.solve(right_);
+    const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> factors(matrix_);
+    coefficients_ = factors.solve(right_);
+    leverage_ = factors.solve(Row::Unit(0))[0];
   }
 
   int count() const { return count_; }
@@ -89,12 +90,12 @@ class Quadric {
     return (up - coefficients_[1] * frame.x - coefficients_[2] * frame.y).normalized();
   }
   // The variance of the height at the origin, over that of one point.
-  double leverage() const { return factors_.solve(Row::Unit(0))[0]; }
+  double leverage() const { return leverage_; }
 
  private:
   Eigen::Matrix<double, 6, 6> matrix_ = Eigen::Matrix<double, 6, 6>::Zero();
   Row right_ = Row::Zero(), coefficients_ = Row::Zero();
-  Eigen::LDLT<Eigen::Matrix<double, 6, 6>> factors_;
+  double leverage_ = 0;
   int count_ = 0;
 };
 
