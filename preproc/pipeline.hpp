@@ -47,8 +47,8 @@ struct PipelineResult {
   std::vector<Vec3> outliers;          // of a cloud, left out
   std::optional<double> solid_volume;  // what `volume_of_solid(reference())` gives, where it is known already
   RepairResult repaired;
-  SurfaceMesh scan;       // after repair
-  SurfaceMesh surface;    // the last surface of the chain
+  SurfaceMesh scan;                   // after repair
+  SurfaceMesh surface;                // the last surface of the chain
   std::vector<Primitive> primitives;  // of a part, where enrichment was asked for
   // Of `surface`, where it is an enriched one: so many vertices, the first, were measured.
   std::optional<std::size_t> measured_vertices;

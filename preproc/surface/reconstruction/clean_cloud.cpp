@@ -4,8 +4,8 @@
 #include "preproc/mesh/error_text.hpp"
 #include "preproc/mesh/vertex_welder.hpp"
 #include "preproc/surface/kernel/parallel_blocks.hpp"
-#include "preproc/surface/reconstruction/outliers.hpp"
 #include "preproc/surface/kernel/point_neighbours.hpp"
+#include "preproc/surface/reconstruction/outliers.hpp"
 #include "preproc/surface/reconstruction/thinning.hpp"
 
 #include <Eigen/Eigenvalues>

@@ -2,9 +2,9 @@
 
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/error_text.hpp"
+#include "preproc/surface/kernel/point_neighbours.hpp"
 #include "preproc/surface/reconstruction/clean_cloud.hpp"
 #include "preproc/surface/reconstruction/consistent_surface.hpp"
-#include "preproc/surface/kernel/point_neighbours.hpp"
 #include "preproc/surface/reconstruction/poisson.hpp"
 #include "preproc/surface/reconstruction/surface_patches.hpp"
 
