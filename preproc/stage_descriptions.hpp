@@ -1,0 +1,31 @@
+// What a stage tells of its result: figures, which gates can name, and remarks for people.
+#pragma once
+
+#include "preproc/pipeline.hpp"
+#include "preproc/surface/kernel/canonical_frame.hpp"
+#include "preproc/tetrahedra_search.hpp"
+
+#include <optional>
+
+namespace scan2fea {
+
+// Of what is made in another frame, places and lengths in the scan's.
+class InScan {
+ public:
+  explicit InScan(const std::optional<CanonicalFrame>& frame) : frame_(frame) {}
+  Vec3 place(const Vec3& p) const { return frame_ ? frame_->place_of(p) : p; }
+  double unit() const { return frame_ ? frame_->unit() : 1; }
+
+ private:
+  const std::optional<CanonicalFrame>& frame_;
+};
+
+// Each fills `changes` and `remarks` of the record.
+void describe(const ReconstructResult& result, StageRecord& record);
+void describe(const RepairResult& result, StageRecord& record);
+void describe(const EnrichResult& result, StageRecord& record);
+void describe(const SimplifyResult& result, const InScan& in_scan, StageRecord& record);
+void describe(const TetrahedralizeResult& result, const InScan& in_scan, StageRecord& record);
+void describe(const RenewalResult& renewal, const InScan& in_scan, StageRecord& record);
+
+}  // namespace scan2fea
