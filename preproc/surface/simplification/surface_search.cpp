@@ -99,8 +99,7 @@ SurfaceSearch::SurfaceSearch(PreparedScanPointer scan, FineCreases fine_creases,
       scan_(std::move(scan)),
       fine_creases_(std::move(fine_creases)),
       wanted_(std::move(wanted)),
-      options_(options),
-      is_part_(is_part(scan_->given)) {
+      options_(options) {
   sizing_.triangles = wanted_.triangles;
   sizing_.sizing = options.sizing;
   sizing_.gradation = options.gradation;
@@ -127,10 +126,12 @@ Candidate SurfaceSearch::run(const Progress& progress) {
       if (!length_.empty()) sizing_.factors = length_;
       break;
     }
-    if (is_part_ && wanted_.deviation && &scan_->mesh == &first_scan_->mesh)
+    // The creases of free forms are specks and folds: smaller triangles are no reason to keep them.
+    if (wanted_.deviation && fine_creases_.left_out() > 0 && &scan_->mesh == &first_scan_->mesh &&
+        is_part(scan_->given))
       scan_ = fine_creases_.with_those_kept_by(length_, scan_);
     try {
-      const bool by_shape = latest.failed() && wanted_.deviation && !was_by_shape && is_part_;
+      const bool by_shape = latest.failed() && wanted_.deviation && !was_by_shape && is_part(scan_->given);
       was_by_shape |= by_shape;
       const Progress in_time = best.failed() ? progress : progress.for_improvement();
       latest = by_shape ? make_by_shape(in_time) : make(best.gave_way() && !best.failed(), in_time);
@@ -335,7 +336,8 @@ void SurfaceSearch::bring_within(Trial& made, double share_to_yield, std::size_t
 // one it would be the peak of the memory.
 void SurfaceSearch::mend_shape(Trial& made, const Progress& progress) const {
   // Of a contraction only what no solver takes: it leaves more than patches can mend.
-  const double least = made.candidate.method == SimplifyMethod::lattice ? mended_deg : usable_deg;
+  const bool by_lattice = made.candidate.method == SimplifyMethod::lattice;
+  const double least = by_lattice ? mended_deg : usable_deg;
   const std::vector<ShorterEdges> bad = find_shape_defects(made.candidate, least).bad;
   if (bad.empty() || static_cast<double>(bad.size()) > few_bad_places * static_cast<double>(made.candidate.faces()))
     return;
@@ -348,7 +350,7 @@ void SurfaceSearch::mend_shape(Trial& made, const Progress& progress) const {
   options.least_angle_deg = least;
   if (!(options.limit > 0)) options.limit = mean_edge_length(made.candidate.mesh);
   // What is plane stays plane.
-  if (scan.has_creases()) options.fidelity_of_diagonal = made.candidate.fit.fidelity_of_diagonal;
+  if (by_lattice && scan.has_creases()) options.fidelity_of_diagonal = made.candidate.fit.fidelity_of_diagonal;
   const MendPlacesResult result = mend_places(mesh, mended.candidate.net, scan.reference(),
                                               wanted_.deviation ? &scan.deviation_reference().tree() : nullptr,
                                               without_overlaps(bad), options, progress);

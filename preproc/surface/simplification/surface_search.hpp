@@ -80,7 +80,6 @@ class SurfaceSearch {
   FineCreases fine_creases_;
   WantedSurface wanted_;
   const SimplifyOptions& options_;
-  bool is_part_;  // the creases of free forms are specks and folds: smaller triangles are no reason to keep them
   SizingOptions sizing_;
   std::vector<double> error_factors_;
   std::vector<double> length_;  // per vertex of the scan, as asked for last; empty before something was lowered
