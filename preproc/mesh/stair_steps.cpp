@@ -1,6 +1,7 @@
 #include "preproc/mesh/stair_steps.hpp"
 
 #include "preproc/mesh/face_neighbours.hpp"
+#include "preproc/mesh/median.hpp"
 
 #include <Eigen/Geometry>
 
@@ -35,12 +36,6 @@ bool is_along(const Vec3& a, const Vec3& b) {
 
 bool is_across(const Vec3& a, const Vec3& b) {
   return std::abs(a.dot(b)) < tilt;
-}
-
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 // Nothing where the values are not nearly all the same.

@@ -1,5 +1,7 @@
 #include "preproc/surface/enrichment/importance.hpp"
 
+#include "preproc/mesh/median.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -71,10 +73,7 @@ double Importance::median_spacing(std::span<const Index> vertices) {
     });
     if (std::isfinite(sixth)) spacing.push_back(sixth);
   }
-  if (spacing.empty()) return 0;
-  const auto middle = spacing.begin() + static_cast<std::ptrdiff_t>(spacing.size() / 2);
-  std::nth_element(spacing.begin(), middle, spacing.end());
-  return *middle;
+  return median(std::move(spacing));
 }
 
 double Importance::angle_to(Index v, const TangentFrame& frame, const Vec3& p) const {

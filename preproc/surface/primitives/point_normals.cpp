@@ -1,5 +1,6 @@
 #include "preproc/surface/primitives/point_normals.hpp"
 
+#include "preproc/mesh/median.hpp"
 #include "preproc/surface/kernel/tangent_frame.hpp"
 
 #include <Eigen/Cholesky>
@@ -99,13 +100,6 @@ class Quadric {
   int count_ = 0;
 };
 
-double median_of(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 }  // namespace
 
 PointNormals own_side_normals(const std::vector<Vec3>& points, const Neighbours& neighbours,
@@ -137,8 +131,8 @@ PointNormals own_side_normals(const std::vector<Vec3>& points, const Neighbours&
     all.solve();
     result.normals[i] = all.normal(frame, planes[i]);
   }
-  result.noise = 1.4826 * median_of(std::move(residuals));
-  result.spacing = median_of(std::move(spacings));
+  result.noise = 1.4826 * median(std::move(residuals));
+  result.spacing = median(std::move(spacings));
   return result;
 }
 

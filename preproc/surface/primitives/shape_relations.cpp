@@ -1,5 +1,6 @@
 #include "preproc/surface/primitives/shape_relations.hpp"
 
+#include "preproc/mesh/median.hpp"
 #include "preproc/surface/primitives/blend.hpp"
 
 #include <algorithm>
@@ -240,9 +241,7 @@ class Relater {
     for (const Index i : found.points)
       if (const auto radius = blend->radius_through(cloud_.points[i])) radii.push_back(*radius);
     if (2 * radii.size() < found.points.size()) return false;
-    const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
-    std::nth_element(radii.begin(), middle, radii.end());
-    return take_if_shorter(found, blend->with_radius(*middle), blend->freedom());
+    return take_if_shorter(found, blend->with_radius(median(std::move(radii))), blend->freedom());
   }
 
   void join_axes() {

@@ -2,6 +2,7 @@
 
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/error_text.hpp"
+#include "preproc/mesh/median.hpp"
 #include "preproc/mesh/vertex_welder.hpp"
 #include "preproc/surface/kernel/parallel_blocks.hpp"
 #include "preproc/surface/kernel/point_neighbours.hpp"
@@ -188,11 +189,9 @@ void Cleaning::drop_outliers() {
 // curvature counts as noise, too, and what is left to merge is what overlaps.
 void Cleaning::merge() {
   constexpr double of_noise = 4, of_spacing = 0.25;
-  std::vector<double> spacing = point_spacing(points_, PointNeighbours(points_));
-  const auto middle = spacing.begin() + static_cast<std::ptrdiff_t>(spacing.size() / 2);
-  std::ranges::nth_element(spacing, middle);
+  const double spacing = median(point_spacing(points_, PointNeighbours(points_)));
   const double noise = of_noise * result_.noise;
-  const double radius = *middle < noise ? noise : std::min(noise, of_spacing * *middle);
+  const double radius = spacing < noise ? noise : std::min(noise, of_spacing * spacing);
   if (radius == 0) return;
   std::vector<Vec3> merged = merge_near(points_, radius, MergeTo::plane);
   result_.merged += points_.size() - merged.size();

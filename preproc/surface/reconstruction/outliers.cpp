@@ -1,14 +1,15 @@
 #include "preproc/surface/reconstruction/outliers.hpp"
 
+#include "preproc/mesh/median.hpp"
 #include "preproc/surface/kernel/parallel_blocks.hpp"
 #include "preproc/surface/kernel/point_neighbours.hpp"
-
-#include <Eigen/Eigenvalues>
+#include "preproc/surface/reconstruction/local_plane.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace scan2fea {
 namespace {
@@ -19,38 +20,14 @@ constexpr std::size_t support = 7;      // points of a plane: about what lies on
 constexpr std::size_t candidates = 12;  // neighbours whose planes are tried
 constexpr std::size_t ring = 6;         // neighbours by which spacing is measured
 
-struct Plane {
-  Vec3 centre, normal;
-  double residual;  // RMS of the points that it was fitted to
-  double reach;     // of the farthest of them
-};
-
-Plane fit(const std::vector<Vec3>& points, std::span<const Neighbour> near, const std::vector<std::uint32_t>& number,
-          std::uint32_t without) {
-  Vec3 sum = Vec3::Zero();
+// Of the points beside one another, without one of them.
+LocalPlane plane_of(const std::vector<Vec3>& points, std::span<const Neighbour> near,
+                    const std::vector<std::uint32_t>& number, std::uint32_t without) {
   std::array<Vec3, support> used;
   std::size_t count = 0;
   for (const Neighbour& n : near)
-    if (number[n.point] != without && count < support) sum += used[count++] = points[n.point];
-  Plane plane{sum / static_cast<double>(count), Vec3::Zero(), 0, 0};
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  for (std::size_t i = 0; i < count; ++i) {
-    const Vec3 d = used[i] - plane.centre;
-    covariance += d * d.transpose();
-    plane.reach = std::max(plane.reach, d.norm());
-  }
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-  solver.computeDirect(covariance);
-  plane.normal = solver.eigenvectors().col(0);
-  plane.residual = std::sqrt(std::max(0.0, solver.eigenvalues()[0]) / static_cast<double>(count));
-  return plane;
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
+    if (number[n.point] != without && count < support) used[count++] = points[n.point];
+  return fit_plane({used.data(), count});
 }
 
 // One pass: planes of the points that `is_outlier` does not name, for all points.
@@ -104,7 +81,7 @@ void Pass::find_distances() {
         double sum = 0;
         for (std::size_t k = 1; k <= ring; ++k) sum += own[k].distance / ring;
         spacings.push_back(sum);
-        const Plane plane = fit(kept_points_, own, kept_, static_cast<std::uint32_t>(i));
+        const LocalPlane plane = plane_of(kept_points_, own, kept_, static_cast<std::uint32_t>(i));
         const Vec3 way = points_[i] - plane.centre;
         const double off = std::abs(way.dot(plane.normal));
         if (std::sqrt(std::max(0.0, way.squaredNorm() - off * off)) > far_beside * plane.reach) continue;

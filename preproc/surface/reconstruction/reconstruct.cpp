@@ -2,6 +2,7 @@
 
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/error_text.hpp"
+#include "preproc/mesh/median.hpp"
 #include "preproc/surface/kernel/point_neighbours.hpp"
 #include "preproc/surface/reconstruction/clean_cloud.hpp"
 #include "preproc/surface/reconstruction/consistent_surface.hpp"
@@ -15,12 +16,6 @@
 
 namespace scan2fea {
 namespace {
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
 
 // A patch is a gap of the scan that is closed by what no point shows.
 void require_small_gaps(const std::vector<SurfacePatch>& gaps, const BoundingBox& box,

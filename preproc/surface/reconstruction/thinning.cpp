@@ -1,16 +1,18 @@
 #include "preproc/surface/reconstruction/thinning.hpp"
 
+#include "preproc/mesh/median.hpp"
 #include "preproc/mesh/morton_code.hpp"
 #include "preproc/surface/kernel/parallel_blocks.hpp"
 #include "preproc/surface/kernel/point_neighbours.hpp"
+#include "preproc/surface/reconstruction/local_plane.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace scan2fea {
 namespace {
@@ -38,32 +40,12 @@ std::vector<InCell> in_order(const std::vector<Vec3>& points, const Vec3& origin
 
 using Neighbour = PointNeighbours::Neighbour;
 
-struct Plane {
-  Vec3 centre = Vec3::Zero(), normal = Vec3::Zero();
-  double residual = 0, reach = 0;
-};
+constexpr std::size_t most_near = 48;
 
-Plane fit(const std::vector<Vec3>& points, std::span<const Neighbour> near) {
-  Plane plane;
-  const auto count = static_cast<double>(near.size());
-  for (const Neighbour& n : near) plane.centre += points[n.point] / count;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  for (const Neighbour& n : near) {
-    const Vec3 way = points[n.point] - plane.centre;
-    covariance += way * way.transpose();
-    plane.reach = std::max(plane.reach, way.norm());
-  }
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-  solver.computeDirect(covariance);
-  plane.normal = solver.eigenvectors().col(0);
-  plane.residual = std::sqrt(std::max(0.0, solver.eigenvalues()[0]) / count);
-  return plane;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
+LocalPlane plane_of(const std::vector<Vec3>& points, std::span<const Neighbour> near) {
+  std::array<Vec3, most_near> used;
+  for (std::size_t k = 0; k < near.size(); ++k) used[k] = points[near[k].point];
+  return fit_plane({used.data(), near.size()});
 }
 
 std::size_t cells_of(const std::vector<InCell>& order) {
@@ -111,7 +93,7 @@ ThinnedCloud thin_by_cells(const std::vector<Vec3>& points, std::size_t most) {
 }
 
 std::vector<Vec3> merge_near(const std::vector<Vec3>& points, double radius, MergeTo to) {
-  constexpr std::size_t most_near = 48, fewest_for_plane = 5;
+  constexpr std::size_t fewest_for_plane = 5;
   const PointNeighbours neighbours(points);
   std::vector<bool> dropped(points.size(), false);
   std::vector<Vec3> merged;
@@ -124,7 +106,7 @@ std::vector<Vec3> merge_near(const std::vector<Vec3>& points, double radius, Mer
       if (near[count].point > i) dropped[near[count].point] = true;
     Vec3 place = points[i];
     if (to == MergeTo::mean || count >= fewest_for_plane) {
-      const Plane plane = fit(points, near.first(count));
+      const LocalPlane plane = plane_of(points, near.first(count));
       place = to == MergeTo::mean ? plane.centre : Vec3(place + plane.normal.dot(plane.centre - place) * plane.normal);
     }
     merged.push_back(place);
@@ -140,7 +122,7 @@ Roughness measure_roughness(const std::vector<Vec3>& points) {
   for_each_block(points.size(), [&](std::size_t first, std::size_t last) {
     std::array<Neighbour, about> found;
     for (std::size_t i = first; i < last; ++i) {
-      const Plane plane = fit(points, neighbours.nearest(points[i], found));
+      const LocalPlane plane = plane_of(points, neighbours.nearest(points[i], found));
       relative[i] = plane.residual / plane.reach;
       reach[i] = plane.reach;
     }

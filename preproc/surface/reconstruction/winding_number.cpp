@@ -1,21 +1,12 @@
 #include "preproc/surface/reconstruction/winding_number.hpp"
 
+#include "preproc/surface/kernel/solid_angle.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 namespace scan2fea {
-namespace {
-
-// Van Oosterom and Strackee, "The solid angle of a plane triangle", 1983.
-double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const double la = a.norm(), lb = b.norm(), lc = c.norm();
-  const double volume = a.dot(b.cross(c));
-  const double rest = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
-  return 2 * std::atan2(volume, rest);
-}
-
-}  // namespace
 
 WindingNumber::WindingNumber(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles) {
   triangles_.reserve(triangles.size());

@@ -1,8 +1,8 @@
 #include "preproc/surface/repair/sides_of_pieces.hpp"
 
 #include "preproc/mesh/union_find.hpp"
+#include "preproc/surface/kernel/solid_angle.hpp"
 #include "preproc/surface/repair/face_marks.hpp"
-#include "preproc/surface/repair/solid_angle.hpp"
 #include "preproc/surface/repair/soup_adjacency.hpp"
 
 #include <algorithm>

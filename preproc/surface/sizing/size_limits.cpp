@@ -6,6 +6,7 @@
 #include "preproc/surface/kernel/parallel_blocks.hpp"
 #include "preproc/surface/sizing/sizing_field.hpp"
 #include "preproc/surface/sizing/split_long_edges.hpp"
+#include "quality/face_blocks.hpp"
 #include "quality/triangle_tree.hpp"
 #include "quality/wall_thickness.hpp"
 
@@ -43,13 +44,8 @@ void check(const SizeLimits& limits) {
             *limits.elements_across, "1 to 10");
 }
 
-BoundingBox box_of(const SurfaceMesh& mesh, const Triangle& t) {
-  const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
-  return {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
-}
-
 bool meet(const BoundingBox& a, const BoundingBox& b) {
-  return (a.low - b.high).maxCoeff() <= 0 && (b.low - a.high).maxCoeff() <= 0;
+  return boxes_meet(a, b);
 }
 
 bool meet(const BoundingBox& box, const Ball& ball) {
@@ -58,7 +54,7 @@ bool meet(const BoundingBox& box, const Ball& ball) {
 
 // By bounding boxes, so that a triangle too many may be limited, but none too few.
 double limit_of(const SurfaceMesh& mesh, const Triangle& t, const SizeLimits& limits) {
-  const BoundingBox bounds = box_of(mesh, t);
+  const BoundingBox bounds = box_of_face(mesh.vertices, t);
   double limit = infinity;
   for (const auto& [box, length] : limits.boxes)
     if (meet(bounds, box)) limit = std::min(limit, length);
@@ -70,7 +66,9 @@ double limit_of(const SurfaceMesh& mesh, const Triangle& t, const SizeLimits& li
 // A place in other units, say, would be ignored without a word.
 template <class Place>
 void require_surface_in(const SurfaceMesh& scan, const Place& place, const char* name, const Vec3& centre) {
-  if (std::ranges::any_of(scan.triangles, [&](const Triangle& t) { return meet(box_of(scan, t), place); })) return;
+  if (std::ranges::any_of(scan.triangles,
+                          [&](const Triangle& t) { return meet(box_of_face(scan.vertices, t), place); }))
+    return;
   const BoundingBox whole = bounding_box(scan.vertices);
   throw WrongUsage({.what = std::string("no part of the surface is in a size ") + name,
                     .where = error_text(centre),

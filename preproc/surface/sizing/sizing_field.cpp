@@ -1,6 +1,7 @@
 #include "preproc/surface/sizing/sizing_field.hpp"
 
 #include "preproc/mesh/error.hpp"
+#include "preproc/mesh/median.hpp"
 #include "preproc/surface/kernel/adjacency.hpp"
 #include "preproc/surface/kernel/components.hpp"
 #include "preproc/surface/kernel/parallel_blocks.hpp"
@@ -144,11 +145,8 @@ std::vector<double> log_length_from_curvature(const Scan& scan, double uniform_l
   std::vector<double> curvature2 = squared_curvature(scan, normals);
   average_with_neighbours(scan, curvature2, 5 * sweeps_factor);
 
-  std::vector<double> sorted = curvature2;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
   // On a part that is mostly flat the median is zero.
-  const double offset = std::max(*middle, 1 / std::pow(flat_radius * uniform_length, 2));
+  const double offset = std::max(median(curvature2), 1 / std::pow(flat_radius * uniform_length, 2));
   std::vector<double> phi(curvature2.size());
   set_each(phi, [&](std::size_t v) { return -0.5 * strength * std::log(curvature2[v] + offset); });
   return phi;
