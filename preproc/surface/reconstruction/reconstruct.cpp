@@ -4,6 +4,7 @@
 #include "preproc/mesh/error_text.hpp"
 #include "preproc/mesh/median.hpp"
 #include "preproc/surface/kernel/point_neighbours.hpp"
+#include "preproc/surface/kernel/unused_vertices.hpp"
 #include "preproc/surface/reconstruction/clean_cloud.hpp"
 #include "preproc/surface/reconstruction/consistent_surface.hpp"
 #include "preproc/surface/reconstruction/poisson.hpp"
@@ -61,24 +62,6 @@ void require_solid(const ConsistentSurface& found, std::size_t points) {
                      .advice = "a scan of all sides of the part"});
 }
 
-// Those that a triangle uses, in their order.
-SurfaceMesh used_points(const std::vector<Vec3>& points, std::vector<Triangle> triangles) {
-  constexpr std::uint32_t none = ~std::uint32_t{0};
-  std::vector<std::uint32_t> number(points.size(), none);
-  for (const Triangle& t : triangles)
-    for (const std::uint32_t v : t) number[v] = 0;
-  SurfaceMesh mesh;
-  for (std::size_t v = 0; v < points.size(); ++v) {
-    if (number[v] == none) continue;
-    number[v] = static_cast<std::uint32_t>(mesh.vertices.size());
-    mesh.vertices.push_back(points[v]);
-  }
-  for (Triangle& t : triangles)
-    for (std::uint32_t& v : t) v = number[v];
-  mesh.triangles = std::move(triangles);
-  return mesh;
-}
-
 // Whose normals are those of the surface through the points.
 void take_poisson(ReconstructResult& result, const Progress& progress) {
   progress("Poisson reconstruction", 0.9);
@@ -115,7 +98,7 @@ ReconstructResult reconstruct(const PointCloud& cloud, const ReconstructOptions&
   result.outliers = std::move(cleaned.outliers);
   result.cell = cleaned.cell;
   result.noise = cleaned.noise;
-  const std::vector<Vec3>& points = cleaned.points;
+  std::vector<Vec3> points = std::move(cleaned.points);
   const std::vector<double> spacing = point_spacing(points, PointNeighbours(points));
   result.spacing = median(spacing);
 
@@ -130,7 +113,8 @@ ReconstructResult reconstruct(const PointCloud& cloud, const ReconstructOptions&
     for (const std::uint32_t i : found.off_surface) result.outliers.push_back(points[i]);
   result.choice = std::move(found.choice);
   find_bridges(points, spacing, found.triangles, result);
-  result.surface = used_points(points, std::move(found.triangles));
+  result.surface = {std::move(points), std::move(found.triangles)};
+  drop_unused_vertices(result.surface);
   result.kept = result.surface.vertices.size();
   if (options.method == ReconstructionMethod::poisson) take_poisson(result, progress);
   progress("reconstruction", 0.95);

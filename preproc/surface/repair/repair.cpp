@@ -1,6 +1,7 @@
 #include "preproc/surface/repair/repair.hpp"
 
 #include "preproc/mesh/error_text.hpp"
+#include "preproc/surface/kernel/unused_vertices.hpp"
 #include "preproc/surface/repair/degenerate_faces.hpp"
 #include "preproc/surface/repair/face_marks.hpp"
 #include "preproc/surface/repair/hole_closing.hpp"

@@ -1,6 +1,7 @@
 #include "preproc/surface/repair/repeated_shells.hpp"
 
 #include "preproc/surface/kernel/adjacency.hpp"
+#include "preproc/surface/kernel/unused_vertices.hpp"
 #include "preproc/surface/repair/shells.hpp"
 #include "preproc/surface/repair/soup_cleaning.hpp"
 #include "quality/deviation_bound.hpp"

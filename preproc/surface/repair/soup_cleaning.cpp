@@ -288,28 +288,6 @@ void drop_inner_walls(SurfaceMesh& mesh, RepairResult& result) {
   remove_faces(mesh, sheets.dropped_faces(), result);
 }
 
-std::vector<Vec3> drop_unused_vertices(SurfaceMesh& mesh) {
-  std::vector<char> used(mesh.vertices.size(), 0);
-  for (const Triangle& t : mesh.triangles)
-    for (const std::uint32_t v : t) used[v] = 1;
-  if (std::find(used.begin(), used.end(), 0) == used.end()) return {};
-  std::vector<std::uint32_t> new_index(mesh.vertices.size());
-  std::vector<Vec3> unused;
-  std::uint32_t kept = 0;
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-    if (!used[v]) {
-      unused.push_back(mesh.vertices[v]);
-      continue;
-    }
-    new_index[v] = kept;
-    mesh.vertices[kept++] = mesh.vertices[v];
-  }
-  mesh.vertices.resize(kept);
-  for (Triangle& t : mesh.triangles)
-    for (std::uint32_t& v : t) v = new_index[v];
-  return unused;
-}
-
 void clean_soup(SurfaceMesh& mesh, RepairResult& result) {
   drop_collapsed_faces(mesh, result);
   drop_duplicate_faces(mesh, result);

@@ -33,7 +33,4 @@ void drop_inner_walls(SurfaceMesh& mesh, RepairResult& result);
 // The steps above in their order, with borders that all but meet stitched (border_stitching.hpp).
 void clean_soup(SurfaceMesh& mesh, RepairResult& result);
 
-// Vertices that no face names; the others keep their order. Returns those dropped.
-std::vector<Vec3> drop_unused_vertices(SurfaceMesh& mesh);
-
 }  // namespace scan2fea
