@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -22,7 +23,7 @@ constexpr double farthest_share = 0.75;
 constexpr double least_on_primitive = 0.1, least_to_before = 0.2;
 
 // Of the mean edge: nearer to its primitive a point is on it.
-constexpr double rounding = 1e-7;
+constexpr double all_but_none = 1e-7;
 
 struct Meeting {
   Vec3 point = Vec3::Zero();
@@ -44,6 +45,10 @@ class Cutter {
       if (!split_mixed_edges()) break;
       turn_edges();
     }
+    for (int pass = 0; pass < 3; ++pass) {
+      if (!leave_holes()) break;
+      turn_edges();
+    }
     return result_;
   }
 
@@ -52,7 +57,7 @@ class Cutter {
     for (Index v = 0; v < mesh_.vertex_slots(); ++v) {
       if (!mesh_.is_alive(v) || labels_.of(v).size() != 1) continue;
       const Vec3 foot = labels_.shape(*labels_.of(v).begin()).foot(mesh_.points[v]);
-      if ((foot - mesh_.points[v]).norm() < rounding * edge_) continue;
+      if ((foot - mesh_.points[v]).norm() < all_but_none * edge_) continue;
       result_.snapped += move_if_sound(v, foot);
     }
   }
@@ -170,29 +175,38 @@ class Cutter {
     return false;
   }
 
-  // Vertices that are all but on a crease become its own.
+  // Vertices that are all but on a crease become its own, those of creases that are all but at a corner as well:
+  // whatever side of it the noise has put them on.
   void merge_near_ends() {
     for (Index v = 0; v < mesh_.vertex_slots(); ++v) {
-      if (!mesh_.is_alive(v) || labels_.of(v).size() != 1) continue;
-      std::optional<Meeting> nearest;
-      double least = 1;
-      mesh_.for_each_outgoing(v, [&](Index h) {
-        if (!is_mixed(h) || labels_.of(mesh_.target(h)).size() != 1) return;
-        const auto meeting = meeting_on(h);
-        if (!meeting || meeting->labels.size() < 2) return;
-        const double share =
-            (meeting->point - mesh_.points[v]).norm() / (mesh_.points[mesh_.target(h)] - mesh_.points[v]).norm();
-        if (share >= merged_share || share >= least) return;
-        least = share;
-        nearest = meeting;
-      });
-      if (!nearest) continue;
-      const auto at = labels_.meeting(nearest->labels, mesh_.points[v]);
-      if (!at || !((*at - mesh_.points[v]).norm() <= (nearest->point - mesh_.points[v]).norm() * 1.0001)) continue;
-      if (!move_if_sound(v, *at)) continue;
-      labels_.set(v, nearest->labels);
-      ++result_.moved;
+      if (!mesh_.is_alive(v)) continue;
+      while (labels_.of(v).size() == 1 || labels_.of(v).size() == 2)
+        if (!join_nearest(v)) break;
     }
+  }
+
+  bool join_nearest(Index v) {
+    std::optional<Meeting> nearest;
+    double least = merged_share;
+    mesh_.for_each_neighbour(v, [&](Index w) {
+      const double length = (mesh_.points[w] - mesh_.points[v]).norm();
+      for (const std::uint32_t label : labels_.of(w)) {
+        if (labels_.of(v).holds(label)) continue;
+        const double off = std::abs(labels_.shape(label).signed_distance(mesh_.points[v]));
+        if (!(off < least * length)) continue;
+        Meeting meeting{.labels = labels_.of(v)};
+        meeting.labels.add(label);
+        const auto at = labels_.meeting(meeting.labels, mesh_.points[v]);
+        if (!at || !((*at - mesh_.points[v]).norm() < least * length)) continue;
+        meeting.point = *at;
+        least = (*at - mesh_.points[v]).norm() / length;
+        nearest = meeting;
+      }
+    });
+    if (!nearest || !move_if_sound(v, nearest->point)) return false;
+    labels_.set(v, nearest->labels);
+    ++result_.moved;
+    return true;
   }
 
   bool split_mixed_edges() {
@@ -207,6 +221,67 @@ class Cutter {
       if (const auto meeting = meeting_on(h); meeting && stays_sound(h, *meeting)) split(h, *meeting);
     }
     return result_.bases.size() > before;
+  }
+
+  struct Hole {
+    std::uint32_t label;
+    double low, high;  // along the axis, about the origin
+  };
+
+  std::vector<Hole> holes() const {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    std::vector<Hole> all;
+    for (std::uint32_t label = 0; label < labels_.primitives().size(); ++label)
+      if (labels_.primitives()[label].use == PrimitiveUse::hole) all.push_back({label, infinity, -infinity});
+    for (Index v = 0; v < mesh_.vertex_slots(); ++v)
+      for (Hole& hole : all) {
+        if (!mesh_.is_alive(v) || !labels_.of(v).holds(hole.label)) continue;
+        const Shape& shape = labels_.shape(hole.label);
+        const double along = (mesh_.points[v] - shape.origin).dot(shape.axis);
+        hole.low = std::min(hole.low, along - edge_);
+        hole.high = std::max(hole.high, along + edge_);
+      }
+    return all;
+  }
+
+  // Where the wall of a hole was hardly seen, edges beside it cut through its inside. They are split, and the new
+  // vertex goes out to the rim or the wall.
+  bool leave_holes() {
+    const std::vector<Hole> all = holes();
+    std::vector<std::array<Index, 2>> inside;
+    for (Index h = 0; h < 3 * mesh_.face_slots(); ++h)
+      if (mesh_.is_face_alive(HalfedgeMesh::face(h)) && !mesh_.is_border(h) && h < mesh_.opposite(h) && !all.empty() &&
+          out_of_hole(h, all))
+        inside.push_back({mesh_.origin(h), mesh_.target(h)});
+    const std::size_t before = result_.bases.size();
+    for (const auto& [a, b] : inside) {
+      const Index h = mesh_.find_halfedge(a, b);
+      if (h == HalfedgeMesh::none || mesh_.is_border(h)) continue;
+      if (const auto meeting = out_of_hole(h, all); meeting && stays_sound(h, *meeting)) split(h, *meeting);
+    }
+    return result_.bases.size() > before;
+  }
+
+  std::optional<Meeting> out_of_hole(Index h, const std::vector<Hole>& all) const {
+    constexpr double least_depth = 0.1;  // of the edge: a chord that spans a seventh of the circle
+    const LabelSet& a = labels_.of(mesh_.origin(h));
+    const LabelSet& b = labels_.of(mesh_.target(h));
+    const Vec3 &p = mesh_.points[mesh_.origin(h)], &q = mesh_.points[mesh_.target(h)], middle = 0.5 * (p + q);
+    for (const Hole& hole : all) {
+      if (a.holds(hole.label) && b.holds(hole.label)) continue;
+      const Shape& shape = labels_.shape(hole.label);
+      const double along = (middle - shape.origin).dot(shape.axis);
+      if (along < hole.low || along > hole.high) continue;
+      if (!(shape.signed_distance(middle) > least_depth * (q - p).norm())) continue;
+      Meeting meeting{.base = middle, .labels = LabelSet(hole.label)};
+      for (const std::uint32_t label : a)
+        if (b.holds(label)) meeting.labels.add(label);
+      if (const auto at = labels_.meeting(meeting.labels, middle)) {
+        meeting.point = *at;
+        return meeting;
+      }
+    }
+    return {};
   }
 
   // The four faces that a split makes.

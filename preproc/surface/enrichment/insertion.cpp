@@ -157,7 +157,8 @@ class Inserter {
     if (!holds(options_.domain, point) || !has_room(t, point, normal, HalfedgeMesh::none)) return false;
 
     const bool on_crease = on_edge && (labels_.is_crease(edge) || normals_.is_crease(mesh_, edge));
-    const LabelSet labels = on_edge && labels_.is_crease(edge) ? crease_labels(edge) : LabelSet(label_at(base, normal));
+    const LabelSet labels =
+        on_edge && labels_.is_crease(edge) ? crease_labels(edge, point) : LabelSet(label_at(base, normal));
     // Between points that lie on primitives and a place that lies on none the triangulation is wrong: it spans a gap,
     // or the mouth of a hole. Nothing tells the height there.
     const bool spans_gap = labels.size() == 0 && std::all_of(t.begin(), t.end(), [&](Index w) { return is_known(w); });
@@ -187,9 +188,21 @@ class Inserter {
     return labels_.of(v).size() > 0 || (v >= done_.first && done_.in_gap[v - done_.first]);
   }
 
-  LabelSet crease_labels(Index edge) const {
+  // Of a point of a crease; where a side runs over from one primitive into another, of the one that is nearer.
+  LabelSet crease_labels(Index edge, const Vec3& point) const {
     LabelSet labels(labels_.of_face(HalfedgeMesh::face(edge)));
     labels.add(labels_.of_face(HalfedgeMesh::face(mesh_.opposite(edge))));
+    if (labels.size() == 2) return labels;
+    std::uint32_t nearest = no_primitive;
+    double least = infinity;
+    for (const Index end : {mesh_.origin(edge), mesh_.target(edge)})
+      for (const std::uint32_t label : labels_.of(end))
+        if (const double off = std::abs(labels_.shape(label).signed_distance(point));
+            !labels.holds(label) && off < least) {
+          least = off;
+          nearest = label;
+        }
+    labels.add(nearest);
     return labels;
   }
 

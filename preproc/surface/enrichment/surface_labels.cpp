@@ -32,12 +32,15 @@ std::uint32_t SurfaceLabels::of_face(Index f) const {
 }
 
 bool SurfaceLabels::is_crease(Index h) const {
+  constexpr double least_bend = 0.8660254;  // cosine of 30 degrees
   if (mesh_.is_border(h)) return false;
-  const std::uint32_t one = of_face(HalfedgeMesh::face(h)), other = of_face(HalfedgeMesh::face(mesh_.opposite(h)));
-  if (one == other || one == no_primitive || other == no_primitive) return false;
+  const Index f = HalfedgeMesh::face(h), g = HalfedgeMesh::face(mesh_.opposite(h));
+  const std::uint32_t one = of_face(f), other = of_face(g);
+  if (one != no_primitive && other != no_primitive) return one != other;
+  if (one == other) return false;
   for (const Index v : {mesh_.origin(h), mesh_.target(h)})
-    if (!sets_[v].holds(one) || !sets_[v].holds(other)) return false;
-  return true;
+    if (sets_[v].size() < 2) return false;
+  return mesh_.area_vector(f).normalized().dot(mesh_.area_vector(g).normalized()) < least_bend;
 }
 
 bool SurfaceLabels::may_flip(Index h) const {

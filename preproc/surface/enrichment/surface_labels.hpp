@@ -48,6 +48,7 @@ class SurfaceLabels {
   // For the vertex that was added to the mesh last.
   void add(const LabelSet& labels) { sets_.push_back(labels); }
 
+  const std::vector<Primitive>& primitives() const { return found_.list; }
   const Shape& shape(std::uint32_t label) const { return found_.list[label].shape; }
 
   // The rounding between two primitives, wherever along them it was found; no_primitive where there is none.
@@ -57,7 +58,8 @@ class SurfaceLabels {
   // they share none.
   std::uint32_t of_face(Index f) const;
 
-  // An edge between faces of different primitives, on both of which its ends lie.
+  // An edge between faces of different primitives; and one along the end of a crease with one side, the other side
+  // running over from one primitive into another that is tangent to it, so that its face lies on neither.
   bool is_crease(Index h) const;
   // Whether the edge may be turned: faces of one primitive, or of none at all.
   bool may_flip(Index h) const;
