@@ -268,20 +268,36 @@ class Cutter {
     const LabelSet& b = labels_.of(mesh_.target(h));
     const Vec3 &p = mesh_.points[mesh_.origin(h)], &q = mesh_.points[mesh_.target(h)], middle = 0.5 * (p + q);
     for (const Hole& hole : all) {
-      if (a.holds(hole.label) && b.holds(hole.label)) continue;
       const Shape& shape = labels_.shape(hole.label);
       const double along = (middle - shape.origin).dot(shape.axis);
       if (along < hole.low || along > hole.high) continue;
       if (!(shape.signed_distance(middle) > least_depth * (q - p).norm())) continue;
+      const std::optional<Vec3> wall = behind(h, shape, middle);
+      if (!wall) continue;
       Meeting meeting{.base = middle, .labels = LabelSet(hole.label)};
       for (const std::uint32_t label : a)
         if (b.holds(label)) meeting.labels.add(label);
-      if (const auto at = labels_.meeting(meeting.labels, middle)) {
+      if (const auto at = labels_.meeting(meeting.labels, *wall)) {
         meeting.point = *at;
         return meeting;
       }
     }
     return {};
+  }
+
+  // The wall of a hole on the edge's inner side; nothing where the faces beside it look along the hole.
+  std::optional<Vec3> behind(Index h, const Shape& hole, const Vec3& middle) const {
+    constexpr double least_across = 0.3;
+    const Vec3 out = mesh_.area_vector(HalfedgeMesh::face(h)).normalized() +
+                     mesh_.area_vector(HalfedgeMesh::face(mesh_.opposite(h))).normalized();
+    Vec3 inwards = out.dot(hole.axis) * hole.axis - out;
+    if (!(inwards.norm() > least_across * out.norm())) return {};
+    inwards.normalize();
+    const Vec3 from_origin = middle - hole.origin;
+    const Vec3 from_axis = from_origin - from_origin.dot(hole.axis) * hole.axis;
+    const double half = from_axis.dot(inwards);
+    const double square = half * half + hole.radius * hole.radius - from_axis.squaredNorm();
+    return square > 0 ? middle + (std::sqrt(square) - half) * inwards : std::optional<Vec3>();
   }
 
   // The four faces that a split makes.

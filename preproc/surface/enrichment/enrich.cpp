@@ -5,6 +5,7 @@
 #include "preproc/surface/enrichment/cut_creases.hpp"
 #include "preproc/surface/enrichment/insertion.hpp"
 #include "preproc/surface/enrichment/triharmonic_lift.hpp"
+#include "preproc/surface/enrichment/unfold.hpp"
 #include "preproc/surface/kernel/halfedge_mesh.hpp"
 #include "preproc/surface/primitives/point_normals.hpp"
 
@@ -156,6 +157,7 @@ EnrichResult enrich(SurfaceMesh& mesh, const EnrichOptions& options, const Progr
   std::vector<Vec3> bases = surface.points;
   ClearSurface clear(surface, std::max(mean_edge_length(mesh), 1e-300));
   const CreaseCutResult cut = cut_creases(surface, labels, clear);
+  unfold(surface, labels, clear);
   bases.insert(bases.end(), cut.bases.begin(), cut.bases.end());
   const Insertion inserted = insert_points(surface, labels, clear, original, options, progress);
   bases.insert(bases.end(), inserted.bases.begin(), inserted.bases.end());
@@ -164,6 +166,7 @@ EnrichResult enrich(SurfaceMesh& mesh, const EnrichOptions& options, const Progr
   if (result.added == 0) return result;
   progress("enrich", 0.8);
   if (options.lifting == Lifting::triharmonic) lift_the_rest(surface, clear, labels, original, inserted, found);
+  unfold(surface, labels, clear);
   count_moves(surface, bases, original, result);
   result.creases = creases_of(surface, labels);
   result.primitives = found.list;

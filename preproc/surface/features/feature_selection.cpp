@@ -255,6 +255,17 @@ std::vector<FeatureEdge> without_short_creases_near(const SurfaceMesh& scan, con
   return kept;
 }
 
+std::vector<FeatureEdge> without_creases_near(const SurfaceMesh& scan, const std::vector<FeatureEdge>& sharp,
+                                              const std::vector<Vec3>& places, double reach) {
+  std::vector<FeatureEdge> kept;
+  for (const FeatureEdge& e : sharp)
+    if (std::ranges::none_of(places, [&](const Vec3& place) {
+          return (scan.vertices[e[0]] - place).norm() < reach || (scan.vertices[e[1]] - place).norm() < reach;
+        }))
+      kept.push_back(e);
+  return kept;
+}
+
 std::vector<FeatureEdge> without_narrow_corners(const SurfaceMesh& scan, const std::vector<FeatureEdge>& sharp,
                                                 const std::vector<SharpCorner>& corners) {
   constexpr double narrow = 0.6, reach = 4;  // edges

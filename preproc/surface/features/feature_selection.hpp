@@ -32,6 +32,10 @@ std::vector<FeatureEdge> select_features(const SurfaceMesh& scan, std::vector<Fe
 std::vector<FeatureEdge> without_short_creases_near(const SurfaceMesh& scan, const std::vector<FeatureEdge>& sharp,
                                                     const std::vector<Vec3>& places, double reach, double longest);
 
+// Without the edges of creases that come within `reach` of one of the places. Sorted as given.
+std::vector<FeatureEdge> without_creases_near(const SurfaceMesh& scan, const std::vector<FeatureEdge>& sharp,
+                                              const std::vector<Vec3>& places, double reach);
+
 // A place on the surface, and how long the result's edges are there, model units.
 struct SharpCorner {
   Vec3 place;
