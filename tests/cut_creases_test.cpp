@@ -1,6 +1,7 @@
 #include "preproc/surface/enrichment/cut_creases.hpp"
 
 #include "preproc/surface/enrichment/enrich.hpp"
+#include "preproc/surface/enrichment/unfold.hpp"
 #include "preproc/surface/primitives/meeting_point.hpp"
 #include "quality/self_intersections.hpp"
 #include "quality/validity.hpp"
@@ -10,6 +11,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace scan2fea {
@@ -40,6 +42,14 @@ double rms_off_box(const std::vector<Vec3>& points, const Vec3& size) {
     sum += off * off;
   }
   return std::sqrt(sum / static_cast<double>(points.size()));
+}
+
+double length_of_creases(const HalfedgeMesh& mesh, const SurfaceLabels& labels) {
+  double length = 0;
+  for (HalfedgeMesh::Index h = 0; h < 3 * mesh.face_slots(); ++h)
+    if (mesh.is_face_alive(HalfedgeMesh::face(h)) && labels.is_crease(h))
+      length += 0.5 * (mesh.points[mesh.origin(h)] - mesh.points[mesh.target(h)]).norm();
+  return length;
 }
 
 TEST(MeetingPoint, IsOnAllShapes) {
@@ -83,11 +93,111 @@ TEST(CutCreases, GiveABoxItsEdgesBack) {
   const SurfaceValidity validity = check_validity(after);
   EXPECT_TRUE(validity.closed() && validity.manifold());
   EXPECT_TRUE(find_self_intersections(after).empty());
-  double creases = 0;
-  for (HalfedgeMesh::Index h = 0; h < 3 * mesh.face_slots(); ++h)
-    if (mesh.is_face_alive(HalfedgeMesh::face(h)) && labels.is_crease(h))
-      creases += 0.5 * (mesh.points[mesh.origin(h)] - mesh.points[mesh.target(h)]).norm();
-  EXPECT_GT(creases, 0.85 * 4 * size.sum());
+  EXPECT_GT(length_of_creases(mesh, labels), 0.85 * 4 * size.sum());
+}
+
+// A washer about the z axis, radii 10 and 16, 4 thick, a column of vertices every 10 degrees; of the hole's wall, with
+// its rims, only the columns up to 270 degrees were seen. The surface cuts through the hole there.
+SurfaceMesh washer_with_a_gap() {
+  constexpr std::uint32_t columns = 36, seen = 28, rows = 5;
+  std::vector<Vec3> section;  // without the wall of the hole; from its lower rim to the upper one
+  for (int i = 1; i < 6; ++i) section.emplace_back(10 + i, 0, 0);
+  for (int i = 0; i < 5; ++i) section.emplace_back(16, 0, i);
+  for (int i = 5; i > 0; --i) section.emplace_back(10 + i, 0, 4);
+  SurfaceMesh mesh;
+  const auto put = [&](std::uint32_t column, const Vec3& p) {
+    mesh.vertices.emplace_back(Eigen::AngleAxisd(column * 10 / 57.29577951308232, Vec3::UnitZ()) * p);
+  };
+  for (std::uint32_t i = 0; i < columns; ++i)
+    for (const Vec3& p : section) put(i, p);
+  const auto along = static_cast<std::uint32_t>(section.size()), wall = columns * along;
+  for (std::uint32_t i = 0; i < seen; ++i)
+    for (std::uint32_t j = 0; j < rows; ++j) put(i, Vec3(10, 0, j));
+  const auto quad = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+    mesh.triangles.push_back({a, b, c});
+    mesh.triangles.push_back({a, c, d});
+  };
+  for (std::uint32_t i = 0; i < columns; ++i)
+    for (std::uint32_t j = 0; j + 1 < along; ++j) {
+      const std::uint32_t here = i * along + j, next = (i + 1) % columns * along + j;
+      quad(here, here + 1, next + 1, next);
+    }
+  for (std::uint32_t i = 0; i < seen; ++i)
+    for (std::uint32_t j = 0; j + 1 < rows; ++j) {
+      const std::uint32_t here = wall + i * rows + j, next = wall + (i + 1) % seen * rows + j;
+      quad(next, next + 1, here + 1, here);
+    }
+  // Between the rims and the rings beside them; over the gap a fan from each of its ends.
+  for (const bool upper : {false, true}) {
+    const auto rim = [&](std::uint32_t i) { return wall + i % seen * rows + (upper ? rows - 1 : 0); };
+    const auto ring = [&](std::uint32_t i) { return i % columns * along + (upper ? along - 1 : 0); };
+    const auto face = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+      upper ? mesh.triangles.push_back({b, a, c}) : mesh.triangles.push_back({a, b, c});
+    };
+    for (std::uint32_t i = 0; i + 1 < seen; ++i) {
+      face(rim(i), ring(i), ring(i + 1));
+      face(rim(i), ring(i + 1), rim(i + 1));
+    }
+    constexpr std::uint32_t middle = (seen - 1 + columns) / 2;
+    for (std::uint32_t i = seen - 1; i < columns; ++i) face(rim(i < middle ? seen - 1 : 0), ring(i), ring(i + 1));
+    face(rim(seen - 1), ring(middle), rim(0));
+  }
+  return enclosed_volume(mesh) > 0 ? mesh : analytic::reversed(mesh);
+}
+
+double nearest_to_axis(const SurfaceMesh& mesh) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Triangle& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 middle = 0.5 * (mesh.vertices[t[k]] + mesh.vertices[t[(k + 1) % 3]]);
+      least = std::min(least, middle.head<2>().norm());
+    }
+  return least;
+}
+
+TEST(CutCreases, LeaveNothingInsideAHole) {
+  const SurfaceMesh scan = washer_with_a_gap();
+  ASSERT_TRUE(check_validity(scan).closed() && check_validity(scan).manifold());
+  ASSERT_LT(nearest_to_axis(scan), 7.2);
+  const Primitives found = find_primitives(scan);
+  ASSERT_GE(found.list.size(), 4U);
+  HalfedgeMesh mesh(scan);
+  SurfaceLabels labels(mesh, found);
+  ClearSurface clear(mesh, 1.5);
+  cut_creases(mesh, labels, clear);
+  const SurfaceMesh after = mesh.to_surface();
+  EXPECT_GT(nearest_to_axis(after), 9);
+  EXPECT_TRUE(check_validity(after).closed());
+  EXPECT_TRUE(find_self_intersections(after).empty());
+}
+
+TEST(CutCreases, TakePointsOnEitherSideOfACrease) {
+  // Points on the edges of a box, which noise puts on one side or the other.
+  const Vec3 size(20, 12, 8);
+  const SurfaceMesh scan = analytic::noisy(analytic::box(size, 1), 0.02, 3);
+  const Primitives found = find_primitives(scan);
+  ASSERT_EQ(found.list.size(), 6U);
+  HalfedgeMesh mesh(scan);
+  SurfaceLabels labels(mesh, found);
+  ClearSurface clear(mesh, 1);
+  cut_creases(mesh, labels, clear);
+  EXPECT_GT(length_of_creases(mesh, labels), 0.98 * 4 * size.sum());
+  EXPECT_LT(length_of_creases(mesh, labels), 1.02 * 4 * size.sum());
+}
+
+TEST(Unfold, OpensAFoldByTurningItsEdge) {
+  // A flat hexagon of which one corner's two faces lie on the others: the diagonal between them is the wrong one.
+  SurfaceMesh sheet{{{0, 0, 0}, {2, 0, 0}, {3, 1, 0}, {2, 2, 0}, {0, 2, 0}, {1.6, 1, 0.05}},
+                    {{0, 1, 5}, {1, 2, 3}, {1, 3, 5}, {3, 4, 5}, {4, 0, 5}}};
+  sheet.vertices[5] = {2.4, 1, 0.05};  // beyond the diagonal from 1 to 3
+  HalfedgeMesh mesh(sheet);
+  Primitives none;
+  none.labels.assign(sheet.vertices.size(), no_primitive);
+  const SurfaceLabels labels(mesh, none);
+  ClearSurface clear(mesh, 1);
+  EXPECT_GT(unfold(mesh, labels, clear), 0U);
+  const SurfaceMesh after = mesh.to_surface();
+  for (const Triangle& t : after.triangles) EXPECT_GT(area_vector(after, t).z(), 0);
 }
 
 TEST(Enrich, PutsNewPointsOntoPrimitives) {
