@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
+#include <span>
+#include <string>
 
 namespace scan2fea {
 namespace {
@@ -55,38 +58,30 @@ void write_numbers(TextOutput& out, const std::vector<std::uint32_t>& indices) {
     out << std::uint64_t{indices[i]} + 1 << (i + 1 == indices.size() || (i + 1) % per_line == 0 ? "\n" : ", ");
 }
 
-std::vector<std::uint32_t> boundary_nodes(const TetMesh& mesh) {
-  std::vector<bool> on_boundary(mesh.nodes.size(), false);
-  for (const BoundaryFace f : mesh.boundary) {
-    const auto& corners = tetrahedron_faces[f.face];
-    const auto is_corner = [&](int c) { return std::find(corners.begin(), corners.end(), c) != corners.end(); };
-    for (const int c : corners) on_boundary[mesh.tetrahedra[f.tetrahedron][static_cast<std::size_t>(c)]] = true;
-    if (mesh.order() == 1) continue;
-    for (std::size_t e = 0; e < tetrahedron_edges.size(); ++e)
-      if (is_corner(tetrahedron_edges[e][0]) && is_corner(tetrahedron_edges[e][1]))
-        on_boundary[mesh.mid_edge_nodes[f.tetrahedron][e]] = true;
+void write_surface_set(TextOutput& out, const TetMesh& mesh, const std::string& name,
+                       std::span<const std::uint32_t> faces) {
+  if (faces.empty()) return;
+  std::array<std::vector<std::uint32_t>, 4> elements;
+  for (const std::uint32_t i : faces) elements[mesh.boundary[i].face].push_back(mesh.boundary[i].tetrahedron);
+  for (std::size_t f = 0; f < 4; ++f) {
+    if (elements[f].empty()) continue;
+    std::sort(elements[f].begin(), elements[f].end());
+    out << "*ELSET, ELSET=" << name << "_S" << f + 1 << "\n";
+    write_numbers(out, elements[f]);
   }
-  std::vector<std::uint32_t> nodes;
-  for (std::size_t n = 0; n < on_boundary.size(); ++n)
-    if (on_boundary[n]) nodes.push_back(static_cast<std::uint32_t>(n));
-  return nodes;
+  out << "*SURFACE, NAME=" << name << ", TYPE=ELEMENT\n";
+  for (std::size_t f = 0; f < 4; ++f)
+    if (!elements[f].empty()) out << name << "_S" << f + 1 << ", S" << f + 1 << "\n";
+  out << "*NSET, NSET=" << name << "_NODES\n";
+  write_numbers(out, nodes_of_faces(mesh, faces));
 }
 
 void write_boundary(TextOutput& out, const TetMesh& mesh) {
   if (mesh.boundary.empty()) return;
-  std::array<std::vector<std::uint32_t>, 4> elements;
-  for (const BoundaryFace f : mesh.boundary) elements[f.face].push_back(f.tetrahedron);
-  for (std::size_t f = 0; f < 4; ++f) {
-    if (elements[f].empty()) continue;
-    std::sort(elements[f].begin(), elements[f].end());
-    out << "*ELSET, ELSET=SALL_S" << f + 1 << "\n";
-    write_numbers(out, elements[f]);
-  }
-  out << "*SURFACE, NAME=SALL, TYPE=ELEMENT\n";
-  for (std::size_t f = 0; f < 4; ++f)
-    if (!elements[f].empty()) out << "SALL_S" << f + 1 << ", S" << f + 1 << "\n";
-  out << "*NSET, NSET=SALL_NODES\n";
-  write_numbers(out, boundary_nodes(mesh));
+  std::vector<std::uint32_t> all(mesh.boundary.size());
+  std::iota(all.begin(), all.end(), 0U);
+  write_surface_set(out, mesh, "SALL", all);
+  for (const NamedSet& set : mesh.face_sets) write_surface_set(out, mesh, set.name, set.members);
 }
 
 }  // namespace

@@ -13,6 +13,24 @@ struct Face {
 
 }  // namespace
 
+std::vector<std::uint32_t> nodes_of_faces(const TetMesh& mesh, std::span<const std::uint32_t> faces) {
+  std::vector<bool> used(mesh.nodes.size(), false);
+  for (const std::uint32_t i : faces) {
+    const BoundaryFace f = mesh.boundary[i];
+    const auto& corners = tetrahedron_faces[f.face];
+    const auto is_corner = [&](int c) { return std::find(corners.begin(), corners.end(), c) != corners.end(); };
+    for (const int c : corners) used[mesh.tetrahedra[f.tetrahedron][static_cast<std::size_t>(c)]] = true;
+    if (mesh.order() == 1) continue;
+    for (std::size_t e = 0; e < tetrahedron_edges.size(); ++e)
+      if (is_corner(tetrahedron_edges[e][0]) && is_corner(tetrahedron_edges[e][1]))
+        used[mesh.mid_edge_nodes[f.tetrahedron][e]] = true;
+  }
+  std::vector<std::uint32_t> nodes;
+  for (std::size_t n = 0; n < used.size(); ++n)
+    if (used[n]) nodes.push_back(static_cast<std::uint32_t>(n));
+  return nodes;
+}
+
 std::vector<BoundaryFace> find_boundary(const std::vector<Tetrahedron>& tetrahedra) {
   std::vector<Face> faces;
   faces.reserve(tetrahedra.size() * 4);

@@ -1,10 +1,13 @@
 // The tetrahedral mesh that is exported to solvers.
 #pragma once
 
+#include "preproc/mesh/named_sets.hpp"
 #include "preproc/mesh/surface_mesh.hpp"
 
 #include <array>
 #include <cstdint>
+#include <span>
+#include <string>
 #include <vector>
 
 namespace scan2fea {
@@ -33,6 +36,10 @@ struct TetMesh {
   std::vector<Tetrahedron> tetrahedra;
   std::vector<MidEdgeNodes> mid_edge_nodes;  // empty for first order, one per tetrahedron for second order
   std::vector<BoundaryFace> boundary;        // in the order of the surface's triangles
+  std::vector<NamedSet> node_sets;
+  std::vector<NamedSet> face_sets;     // of `boundary`; a writer derives their nodes (nodes_of_faces)
+  std::vector<NamedSet> element_sets;  // bodies, materials
+  std::string unit;                    // of length, as in the file or as given; empty where it is not known
 
   int order() const { return mid_edge_nodes.empty() ? 1 : 2; }
 };
@@ -44,6 +51,9 @@ inline Triangle boundary_triangle(const TetMesh& mesh, BoundaryFace f) {
   return {tet[static_cast<std::size_t>(local[0])], tet[static_cast<std::size_t>(local[2])],
           tet[static_cast<std::size_t>(local[1])]};
 }
+
+// All nodes of boundary faces, those in the middle of their edges too; sorted.
+std::vector<std::uint32_t> nodes_of_faces(const TetMesh& mesh, std::span<const std::uint32_t> faces);
 
 // The faces that belong to exactly one tetrahedron, ordered by tetrahedron and face. O(n log n).
 std::vector<BoundaryFace> find_boundary(const std::vector<Tetrahedron>& tetrahedra);
