@@ -1,0 +1,20 @@
+// What each face is, how well, and in which order faces are named.
+#pragma once
+
+#include "preproc/surface/faces/find_faces.hpp"
+
+#include <vector>
+
+namespace scan2fea {
+
+// The shape that describes a surface's vertices within `sigma` (model units, > 0) and has the shortest description;
+// nothing where none does. Which of the triangles' sides is outside their order tells.
+std::optional<Shape> fit_face(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& triangles, double sigma);
+
+// Area, place and misfit of a face whose triangles and shape are known; `label`: its own in `of_triangle`.
+void measure_face(const SurfaceMesh& mesh, const std::vector<bool>& is_border_vertex, SurfaceFace& face);
+
+// Sorts and names them; see find_faces.hpp.
+void name_faces(const SurfaceMesh& mesh, std::vector<SurfaceFace>& faces);
+
+}  // namespace scan2fea
