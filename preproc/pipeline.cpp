@@ -2,6 +2,7 @@
 
 #include "preproc/mesh/error.hpp"
 #include "preproc/stage_descriptions.hpp"
+#include "preproc/surface/faces/carry_sets.hpp"
 #include "preproc/surface/kernel/canonical_frame.hpp"
 #include "preproc/surface/repair/solid_volume.hpp"
 #include "preproc/surface/simplification/voxel_options.hpp"
@@ -141,6 +142,7 @@ void MeshMaker::place() {
     frame_.emplace(scan_, placed_.emplace());
     if (simplification_.given_features)
       for (Vec3& p : simplification_.given_features->points) p = frame_->to_frame(p);
+    for (Vec3& p : simplification_.kept_lines.points) p = frame_->to_frame(p);
   }
   take_lengths_to_frame();
 }
@@ -235,6 +237,44 @@ void hand_on_creases(const SurfaceMesh& enriched, const std::vector<FeatureEdge>
   simplification->may_drop_given = true;
 }
 
+// What is selected is selected of the surface that is to be simplified.
+SelectedScan select(SurfaceMesh scan, const PipelineOptions& options, const Progress& progress,
+                    std::optional<SimplifyOptions>& simplification, StageRecord& record) {
+  const FeatureOptions features = options.simplify ? options.simplify->features : FeatureOptions{};
+  SelectedScan selected = select_sets(std::move(scan), options.sets, {}, features, progress);
+  if (simplification)
+    simplification->kept_lines = lines_of(selected.mesh, borders_between(selected.mesh, selected.of_triangle));
+  record.changes.emplace_back("faces", static_cast<double>(selected.faces.list.size()));
+  record.changes.emplace_back("sets", static_cast<double>(selected.sets.size()));
+  return selected;
+}
+
+// The sets on the surface that was made, whose triangles' order the boundary of the volume keeps.
+void carry_sets(const SelectedScan& selected, const SimplifyResult& simplified, PipelineResult& result) {
+  const SurfaceMesh& surface = result.surface;
+  const std::vector<std::uint32_t> label =
+      carry_labels(selected.mesh, selected.of_triangle, surface, simplified.line_edges);
+  // One triangle of the scan for each label: in the same sets as all others.
+  std::vector<std::uint32_t> example;
+  for (std::uint32_t f = 0; f < selected.of_triangle.size(); ++f)
+    if (selected.of_triangle[f] == example.size()) example.push_back(f);
+  std::vector<std::uint32_t> origin;
+  for (const std::uint32_t l : label) origin.push_back(example[l]);
+  result.face_sets = carried_sets(selected.sets, origin);
+  for (std::size_t s = 0; s < result.face_sets.size(); ++s) {
+    const NamedSet& set = result.face_sets[s];
+    MadeSet made{.name = set.name, .area_of_scan = selected.areas[s], .triangles = set.members.size()};
+    for (const std::uint32_t f : set.members) made.area += area_vector(surface, surface.triangles[f]).norm() / 2;
+    if (set.members.empty())
+      throw NotMeshable({.what = "nothing is left of the set " + set.name,
+                         .where = {},
+                         .value = "area " + std::to_string(made.area_of_scan),
+                         .limit = {},
+                         .advice = "smaller triangles (--deviation, --faces, --size-ball), --method lattice"});
+    result.sets.push_back(std::move(made));
+  }
+}
+
 void run_stages(SurfaceMesh scan, const PipelineOptions& options, const Progress& progress, StageLog& log,
                 PipelineResult& result) {
   const auto stairs = options.simplify ? find_stair_steps(scan) : std::nullopt;
@@ -260,14 +300,23 @@ void run_stages(SurfaceMesh scan, const PipelineOptions& options, const Progress
       if (!options.simplify) result.measured_vertices = enriched.vertices.size() - made.added;
       hand_on_creases(enriched, made.creases, chain.simplify);
     });
-  FilledSurface made = MeshMaker(options.enrich ? enriched : result.scan, stairs, chain, result, log).run(progress);
+  std::optional<SelectedScan> selected;
+  if (!options.sets.empty())
+    log.run("sets", [&](StageRecord& record) {
+      selected = select(options.enrich ? enriched : result.scan, options, progress, chain.simplify, record);
+    });
+  const SurfaceMesh& start = selected ? selected->mesh : options.enrich ? enriched : result.scan;
+  FilledSurface made = MeshMaker(start, stairs, chain, result, log).run(progress);
   if (options.simplify || options.tetrahedralize)
     result.weak_places = checked_for_solvers(made.surface, options.tetrahedralize ? &made.filled.mesh : nullptr,
                                              result.reference(), options);
   result.surface = std::move(made.surface);
   result.features = std::move(made.simplified.features);
+  if (selected) carry_sets(*selected, made.simplified, result);
   if (options.tetrahedralize) {
     result.volume_mesh = std::move(made.filled.mesh);
+    const std::vector<std::uint32_t>& parent = made.filled.boundary_parent;  // where the boundary was split
+    result.volume_mesh->face_sets = parent.empty() ? result.face_sets : carried_sets(result.face_sets, parent);
     if (options.order == 2)
       log.run("second order", [&](StageRecord& record) {
         const std::size_t corners = result.volume_mesh->nodes.size();

@@ -7,6 +7,7 @@
 #include "preproc/mesh/surface_mesh.hpp"
 #include "preproc/mesh/tet_mesh.hpp"
 #include "preproc/surface/enrichment/enrich.hpp"
+#include "preproc/surface/faces/select_sets.hpp"
 #include "preproc/surface/reconstruction/reconstruct.hpp"
 #include "preproc/surface/repair/repair.hpp"
 #include "preproc/surface/simplification/simplify.hpp"
@@ -30,6 +31,16 @@ struct PipelineOptions {
   std::optional<SimplifyOptions> simplify = SimplifyOptions{};
   std::optional<TetrahedralizeOptions> tetrahedralize = TetrahedralizeOptions{};
   int order = 1;  // 1: 4-node tetrahedra, 2: 10-node tetrahedra
+  // Parts of the surface that get a name; their borders become lines of the mesh.
+  std::vector<NamedSelection> sets = {};
+};
+
+// A set of the result's triangles.
+struct MadeSet {
+  std::string name;
+  double area_of_scan = 0;  // of what was selected, on the scan as it came to simplification
+  double area = 0;          // of the surface that was made
+  std::size_t triangles = 0;
 };
 
 // What one stage cost and did.
@@ -52,8 +63,10 @@ struct PipelineResult {
   std::vector<Primitive> primitives;  // of a part, where enrichment was asked for
   // Of `surface`, where it is an enriched one: so many vertices, the first, were measured.
   std::optional<std::size_t> measured_vertices;
-  FeatureLines features;  // the scan's edges that simplification was to keep
-  std::optional<TetMesh> volume_mesh;
+  FeatureLines features;               // the scan's edges that simplification was to keep
+  std::optional<TetMesh> volume_mesh;  // with the sets
+  std::vector<NamedSet> face_sets;     // of `surface`
+  std::vector<MadeSet> sets;           // the same in figures
   std::vector<StageRecord> stages;
   std::vector<WeakPlace> weak_places;  // of what was made; none of them is unusable
   std::vector<std::string> left_out;   // for want of time, improvements: "better tetrahedra"

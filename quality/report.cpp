@@ -195,6 +195,11 @@ std::string to_table(const Json& report) {
   if (report.contains("deviation")) table += deviation_table(report["deviation"]);
   if (report.contains("points")) table += points_table(report["points"]);
   if (report.contains("volume_mesh")) table += volume_mesh_table(report["volume_mesh"]);
+  if (report.contains("sets")) table += "sets\n";
+  if (report.contains("sets"))
+    for (const Json& set : report["sets"])
+      table += row(text(set["name"]), text(set["triangles"]) + " triangles, area " + text(set["area"], "%.6g") +
+                                          ", of the scan " + text(set["area_of_scan"], "%.6g"));
   if (!report["regions"].empty()) table += "regions\n";
   for (const Json& region : report["regions"])
     table += row(text(region["name"]), text(region["faces"]) + " faces, area " + text(region["area"], "%.9g"));

@@ -91,7 +91,8 @@ int check(const CheckFlags& flags) {
                         .repaired = nullptr,
                         .cloud = cloud ? &*cloud : nullptr,
                         .outliers = nullptr,
-                        .primitives = nullptr};
+                        .primitives = nullptr,
+                        .sets = nullptr};
   StagedOutputs outputs;
   if (flags.leaks) {
     const std::vector<Opening> openings = find_openings(mesh.surface);

@@ -61,6 +61,18 @@ Json to_json(const std::vector<Primitive>& primitives) {
   return list;
 }
 
+Json to_json(const std::vector<MadeSet>& sets) {
+  Json list = Json::array();
+  for (const MadeSet& set : sets)
+    list.push_back({{"name", set.name},
+                    {"kind", "faces"},
+                    {"area", set.area},
+                    {"area_of_scan", set.area_of_scan},
+                    {"area_difference_pct", 100 * (set.area / set.area_of_scan - 1)},
+                    {"triangles", set.triangles}});
+  return list;
+}
+
 Json measure(const Subject& subject, const CommonFlags& flags) {
   Report report;
   report.input = flags.input.string();
@@ -82,6 +94,7 @@ Json measure(const Subject& subject, const CommonFlags& flags) {
     json["made_up"] = list_changes(*subject.repaired, is_made_up);
   }
   if (subject.primitives != nullptr && !subject.primitives->empty()) json["primitives"] = to_json(*subject.primitives);
+  if (subject.sets != nullptr && !subject.sets->empty()) json["sets"] = to_json(*subject.sets);
   if (subject.stages != nullptr) json["stages"] = to_json(*subject.stages);
   return json;
 }

@@ -24,6 +24,7 @@ struct Subject {
   const PointCloud* cloud = nullptr;            // what the surface is a surface of
   const std::vector<Vec3>* outliers = nullptr;  // of it
   const std::vector<Primitive>* primitives = nullptr;
+  const std::vector<MadeSet>* sets = nullptr;
 };
 
 // Returns whether all gates pass. Stages --json and --report; says which gates failed.

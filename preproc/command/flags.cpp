@@ -332,20 +332,24 @@ void add_simplify_flags(CLI::App& command, SimplifyOptions& options) {
       ->check(CLI::Range(0.02, 1.0))
       ->type_name("G");
   add_size_limit_flags(command, options.limits);
+  add_feature_angle_flag(command, options.features);
+}
+
+void add_feature_angle_flag(CLI::App& command, FeatureOptions& features) {
   command
       .add_option_function<std::string>(
           "--feature-angle",
-          [&options](const std::string& text) {
+          [&features](const std::string& text) {
             if (text == "off") {
-              options.features.angle_deg.reset();
+              features.angle_deg.reset();
               return;
             }
             char* end = nullptr;
             const double angle = std::strtod(text.c_str(), &end);
             if (text.empty() || *end != '\0' || !(angle > 0 && angle < 180))
               throw CLI::ValidationError("--feature-angle", "'" + text + "' is neither off nor degrees, 0 to 180");
-            options.features.angle_deg = angle;
-            options.features.continuation_angle_deg = std::min(options.features.continuation_angle_deg, angle);
+            features.angle_deg = angle;
+            features.continuation_angle_deg = std::min(features.continuation_angle_deg, angle);
           },
           "Creases whose faces' normals differ by more are kept, degrees (40); off: none")
       ->type_name("DEG|off");
@@ -359,6 +363,15 @@ void add_feature_file_flags(CLI::App& command, FeatureFileFlags& flags) {
                   "Keep the scan's edges along the lines of this OBJ, instead of those that --feature-angle would find")
       ->excludes("--feature-angle")
       ->type_name("FILE.obj");
+}
+
+void add_set_flag(CLI::App& command, std::vector<std::string>& sets) {
+  command
+      .add_option("--set", sets,
+                  "A part of the surface gets a name: NAME=EXPRESSION, as fixed=plane(z<0.5mm), "
+                  "load=cylinder(z, r=5+-0.2), tip=box(0,0,0, 1,1,1) and not FACE_3 (repeatable; scan2fea faces lists)")
+      ->type_name("NAME=EXPRESSION")
+      ->allow_extra_args(false);
 }
 
 void add_effort_flag(CLI::App& command, PipelineOptions& options) {

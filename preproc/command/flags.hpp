@@ -64,6 +64,8 @@ void add_reconstruct_flags(CLI::App& command, ReconstructOptions& options);
 void add_repair_flags(CLI::App& command, RepairOptions& options);
 void add_enrich_flags(CLI::App& command, EnrichOptions& options);
 void add_simplify_flags(CLI::App& command, SimplifyOptions& options);
+void add_feature_angle_flag(CLI::App& command, FeatureOptions& features);
+void add_set_flag(CLI::App& command, std::vector<std::string>& sets);
 void add_feature_file_flags(CLI::App& command, FeatureFileFlags& flags);  // after add_simplify_flags
 // For the stages that `options` has by then.
 void add_effort_flag(CLI::App& command, PipelineOptions& options);

@@ -43,7 +43,8 @@ int run_command(int argc, char** argv) {
       "5 the tetrahedral mesher failed, 6 output cannot be written, 130 interrupted.");
   const std::vector<SubCommand> commands{add_run(root),         add_surface(root),  add_repair(root),
                                          add_enrich(root),      add_simplify(root), add_tetrahedralize(root),
-                                         add_reconstruct(root), add_check(root),    add_convert(root)};
+                                         add_reconstruct(root), add_faces(root),    add_check(root),
+                                         add_convert(root)};
   if (argc > 1 && !is_known(root, argv[1])) return wrong_usage;
   try {
     root.parse(argc, argv);

@@ -94,6 +94,21 @@ std::vector<std::string> warnings_of(const Scan& scan, const CommonFlags& flags)
   return std::visit([&](const auto& input) { return input_warnings(input, flags.unit); }, scan);
 }
 
+void parse_sets(MakeMeshJob& job) {
+  for (const std::string& text : job.sets) {
+    NamedSelection set = parse_selection(text, job.common.unit.value_or(""));
+    std::vector<NamedSet> before;
+    for (const NamedSelection& other : job.pipeline.sets) before.push_back({other.name, {}});
+    if (find_set(before, set.name) < before.size())
+      throw WrongUsage({.what = "two sets have the same name",
+                        .where = "--set",
+                        .value = set.name,
+                        .limit = {},
+                        .advice = "another name, or one expression with or"});
+    job.pipeline.sets.push_back(std::move(set));
+  }
+}
+
 void require_writable_outputs(const MakeMeshJob& job) {
   std::vector<OutputPath> outputs = report_outputs(job.common);
   outputs.push_back({job.output});
@@ -116,6 +131,7 @@ void add_surface_flags(CLI::App& command, MakeMeshJob& job) {
   add_enrich_flags(command, job.enrich_options);
   add_simplify_flags(command, *job.pipeline.simplify);
   add_feature_file_flags(command, job.features);
+  add_set_flag(command, job.sets);
   add_effort_flag(command, job.pipeline);
 }
 
@@ -125,6 +141,7 @@ int make_mesh(MakeMeshJob job) {
   require_known_format(job);
   require_writable_outputs(job);
   const std::vector<Gate> gates = parse_gates(job.common);
+  parse_sets(job);
 
   Scan scan = read_input(job);
   display.line(describe(scan, job.common));
@@ -154,7 +171,8 @@ int make_mesh(MakeMeshJob job) {
                           .repaired = &result.repaired,
                           .cloud = std::get_if<PointCloud>(&scan),
                           .outliers = &result.outliers,
-                          .primitives = &result.primitives};
+                          .primitives = &result.primitives,
+                          .sets = &result.sets};
     if (!report_figures(subject, job.common, gates, display, outputs)) {
       outputs.commit();
       return 1;

@@ -14,6 +14,7 @@ struct MakeMeshJob {
   std::filesystem::path output;
   SizeFlags size;
   FeatureFileFlags features;
+  std::vector<std::string> sets;  // NAME=EXPRESSION
   PipelineOptions pipeline;
   std::optional<double> time_limit;  // of the whole command, seconds
   TakesClouds takes_clouds = TakesClouds::no;

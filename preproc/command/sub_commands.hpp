@@ -19,6 +19,7 @@ SubCommand add_repair(CLI::App& root);
 SubCommand add_enrich(CLI::App& root);
 SubCommand add_simplify(CLI::App& root);
 SubCommand add_tetrahedralize(CLI::App& root);
+SubCommand add_faces(CLI::App& root);
 SubCommand add_check(CLI::App& root);
 SubCommand add_convert(CLI::App& root);
 

@@ -58,7 +58,11 @@ ScanByShape prepare_by_shape(const PreparedScan& scan, const SizingOptions& sizi
   if (!options.given_features || options.may_drop_given)
     creases = select_features(*mesh, std::move(creases), length, {.least_triangles = least_triangles});
   const CurveTolerance tolerance = scan.features().tolerance;
-  return {std::make_shared<const PreparedScan>(scan.given, std::move(mesh), std::move(creases), tolerance),
+  KeptLines lines;
+  if (!options.kept_lines.segments.empty()) lines.edges = match_features(*mesh, VertexStars(*mesh), options.kept_lines);
+  for (const FeatureEdge& e : lines.edges) lines.smooth += !std::ranges::binary_search(creases, e);
+  return {std::make_shared<const PreparedScan>(scan.given, std::move(mesh), std::move(creases), tolerance,
+                                               std::move(lines)),
           std::move(length)};
 }
 

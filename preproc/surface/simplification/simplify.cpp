@@ -101,13 +101,23 @@ std::optional<SurfaceMesh> with_smaller_faces(const SurfaceMesh& mesh, const Sim
   const bool few_faces =
       options.method == SimplifyMethod::lattice && !std::holds_alternative<LargestDeviation>(options.size) &&
       area > equilateral_area * edge * edge * largest_face * static_cast<double>(mesh.triangles.size());
-  if (features.empty() && options.limits.empty() && !few_faces) return {};
+  if (features.empty() && options.kept_lines.segments.empty() && options.limits.empty() && !few_faces) return {};
   const double finest = equilateral_edge(area, triangles_of_small_part);
   SurfaceMesh parted = mesh;
   std::vector<double> length(mesh.vertices.size(), std::min(edge, finest));
   halve_long_edges(parted, length, features, longest_edge_of_part, longest_edge_of_part);
   refine_within_limits(parted, features, options.limits);
   return parted;
+}
+
+// `creases`: sorted. Of the mesh that is to be simplified, which may be another one than the lines are of.
+KeptLines lines_to_keep(const SurfaceMesh& mesh, const std::vector<FeatureEdge>& creases,
+                        const SimplifyOptions& options) {
+  KeptLines lines;
+  if (options.method != SimplifyMethod::lattice || options.kept_lines.segments.empty()) return lines;
+  lines.edges = match_features(mesh, VertexStars(mesh), options.kept_lines);
+  for (const FeatureEdge& e : lines.edges) lines.smooth += !std::ranges::binary_search(creases, e);
+  return lines;
 }
 
 // What became of the creases that were to be kept.
@@ -154,7 +164,8 @@ SimplifyResult Simplification::State::result(Candidate candidate, SurfaceMesh& s
   result.faces_after = candidate.faces();
   result.crossings_mended = candidate.crossings_mended;
   result.largest_deviation = candidate.largest_deviation;
-  result.feature_edges_kept = candidate.feature_edges();
+  result.line_edges = edges_of(candidate.net);
+  result.feature_edges_kept = result.line_edges.size();
   result.feature_remark = feature_remark(wanted_creases, candidate.scan->creases().size());
   result.feature_edges_too_fine = search->too_fine_creases();
   result.size_remark = search->size_remark();
@@ -195,9 +206,12 @@ Simplification::Simplification(const SurfaceMesh& scan, const SimplifyOptions& o
   FineCreases fine_creases(features.edges, std::move(too_fine));
   const CurveTolerance tolerance = tolerance_of_curves(scan, size, features.noise);
   state.parted = with_smaller_faces(scan, options, area, edge, features.edges);
-  state.wanted_creases = features.edges.size();
-  const auto prepared = std::make_shared<const PreparedScan>(scan, state.parted ? *state.parted : scan,
-                                                             std::move(features.edges), tolerance);
+  const SurfaceMesh& mesh = state.parted ? *state.parted : scan;
+  std::sort(features.edges.begin(), features.edges.end());
+  KeptLines lines = lines_to_keep(mesh, features.edges, options);
+  const auto prepared =
+      std::make_shared<const PreparedScan>(scan, mesh, std::move(features.edges), tolerance, std::move(lines));
+  state.wanted_creases = prepared->creases().size();
   WantedSurface wanted;
   if (const auto* bound = std::get_if<LargestDeviation>(&size)) {
     wanted.deviation = *bound;

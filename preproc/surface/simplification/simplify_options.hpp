@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 namespace scan2fea {
 
@@ -60,6 +61,9 @@ struct SimplifyOptions {
   std::optional<FeatureLines> given_features;  // instead of those that would be found; see match_features.hpp
   // Whether given creases that triangles of this size cannot keep are given up, as those found are.
   bool may_drop_given = false;
+  // Edges of the scan that are lines of the result besides its creases, whatever triangles they take: borders of sets.
+  // For the `lattice` method; where it gives way, there are none.
+  FeatureLines kept_lines;
   CollapseOptions collapse;  // objective, placement and cost of the `collapse` method; its face count is set by `size`
 };
 
@@ -77,8 +81,9 @@ struct SimplifyResult {
   FeatureLines features;                                // the creases of the scan that were to be kept
   // Where triangles of the wanted size are too large for the features: how that was settled; empty where it was not so.
   std::string feature_remark;
-  std::string size_remark;             // where more triangles were made than were asked for
-  std::size_t feature_edges_kept = 0;  // edges of the result that stand for creases and borders
+  std::string size_remark;              // where more triangles were made than were asked for
+  std::size_t feature_edges_kept = 0;   // edges of the result that stand for creases and borders
+  std::vector<FeatureEdge> line_edges;  // these edges, and those that stand for lines; sorted
 };
 
 }  // namespace scan2fea
