@@ -329,6 +329,11 @@ void run_stages(SurfaceMesh scan, const PipelineOptions& options, const Progress
                           {"least_jacobian_of_straight", curved.least_jacobian},
                           {"curved_volume", curved.volume}};
       });
+    for (std::size_t s = 0; s < result.sets.size() && options.order == 2; ++s) {
+      result.sets[s].area = 0;
+      for (const std::uint32_t f : result.volume_mesh->face_sets[s].members)
+        result.sets[s].area += face_area(*result.volume_mesh, result.volume_mesh->boundary[f]);
+    }
   }
 }
 

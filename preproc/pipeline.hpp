@@ -38,8 +38,8 @@ struct PipelineOptions {
 // A set of the result's triangles.
 struct MadeSet {
   std::string name;
-  double area_of_scan = 0;  // of what was selected, on the scan as it came to simplification
-  double area = 0;          // of the surface that was made
+  double area_of_scan = 0;  // of what was selected, without noise where faces of known shape were asked for
+  double area = 0;          // of what was made; of second order, curved
   std::size_t triangles = 0;
 };
 

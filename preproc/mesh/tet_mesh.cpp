@@ -1,6 +1,7 @@
 #include "preproc/mesh/tet_mesh.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace scan2fea {
@@ -12,6 +13,31 @@ struct Face {
 };
 
 }  // namespace
+
+double face_area(const TetMesh& mesh, BoundaryFace f) {
+  const Triangle corners = boundary_triangle(mesh, f);
+  std::array<Vec3, 6> x;  // corners, then the middles of 12, 23, 31
+  for (std::size_t k = 0; k < 3; ++k) x[k] = mesh.nodes[corners[k]];
+  if (mesh.order() == 1) return (x[1] - x[0]).cross(x[2] - x[0]).norm() / 2;
+  const Tetrahedron& tet = mesh.tetrahedra[f.tetrahedron];
+  for (std::size_t e = 0; e < tetrahedron_edges.size(); ++e) {
+    const std::uint32_t a = tet[static_cast<std::size_t>(tetrahedron_edges[e][0])],
+                        b = tet[static_cast<std::size_t>(tetrahedron_edges[e][1])];
+    for (std::size_t k = 0; k < 3; ++k)
+      if (std::minmax(a, b) == std::minmax(corners[k], corners[(k + 1) % 3]))
+        x[3 + k] = mesh.nodes[mesh.mid_edge_nodes[f.tetrahedron][e]];
+  }
+  // Radon's rule: the centre, and three points on each of two triangles.
+  const double root = std::sqrt(15.0), near = (6 - root) / 21, far = (6 + root) / 21;
+  const auto at = [&](double u, double v) {
+    const double w = 1 - u - v;
+    const Vec3 du = (4 * u - 1) * x[1] - (4 * w - 1) * x[0] + 4 * ((w - u) * x[3] + v * x[4] - v * x[5]);
+    const Vec3 dv = (4 * v - 1) * x[2] - (4 * w - 1) * x[0] + 4 * (-u * x[3] + u * x[4] + (w - v) * x[5]);
+    return du.cross(dv).norm();
+  };
+  const auto around = [&](double a) { return at(a, a) + at(1 - 2 * a, a) + at(a, 1 - 2 * a); };
+  return (0.225 * at(1.0 / 3, 1.0 / 3) + (155 - root) / 1200 * around(near) + (155 + root) / 1200 * around(far)) / 2;
+}
 
 std::vector<std::uint32_t> nodes_of_faces(const TetMesh& mesh, std::span<const std::uint32_t> faces) {
   std::vector<bool> used(mesh.nodes.size(), false);

@@ -52,6 +52,9 @@ inline Triangle boundary_triangle(const TetMesh& mesh, BoundaryFace f) {
           tet[static_cast<std::size_t>(local[1])]};
 }
 
+// Of the face as it is: of second order curved, by a rule of degree five, exact to about the fourth power of the bend.
+double face_area(const TetMesh& mesh, BoundaryFace f);
+
 // All nodes of boundary faces, those in the middle of their edges too; sorted.
 std::vector<std::uint32_t> nodes_of_faces(const TetMesh& mesh, std::span<const std::uint32_t> faces);
 

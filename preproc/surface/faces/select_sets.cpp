@@ -7,6 +7,7 @@
 #include "preproc/surface/sizing/split_long_edges.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -229,9 +230,17 @@ NamedSet members(const Scan& scan, const Selector& selector, std::string name) {
   return set;
 }
 
-double area_of(const SurfaceMesh& mesh, const NamedSet& set) {
+// Noise makes a surface larger: on a face of known shape the area is that of the triangle on the shape.
+double area_of(const Scan& scan, const NamedSet& set) {
   double area = 0;
-  for (const Index f : set.members) area += area_vector(mesh, mesh.triangles[f]).norm() / 2;
+  for (const Index f : set.members) {
+    const auto& [a, b, c] = scan.mesh.triangles[f];
+    std::array<Vec3, 3> p{scan.mesh.vertices[a], scan.mesh.vertices[b], scan.mesh.vertices[c]};
+    if (!scan.faces.list.empty())
+      if (const auto& shape = scan.faces.list[scan.faces.of_triangle[f]].shape)
+        for (Vec3& x : p) x = shape->foot(x);
+    area += (p[1] - p[0]).cross(p[2] - p[0]).norm() / 2;
+  }
   return area;
 }
 
@@ -254,7 +263,7 @@ void explain(const Scan& scan, const Selector& selector, std::string& text) {
     for (const Selector& operand : selector.operands()) explain(scan, operand, text);
     return;
   }
-  const double area = area_of(scan.mesh, members(scan, selector, {}));
+  const double area = area_of(scan, members(scan, selector, {}));
   text += (text.empty() ? "" : "; ") + s.text + " alone is of area " + error_text(area, 4);
   if (area == 0) text += " (" + nearest_to(scan, s) + ")";
 }
@@ -294,7 +303,7 @@ SelectedScan select_sets(SurfaceMesh mesh, std::span<const NamedSelection> selec
     NamedSet set = members(scan, selectors[s], selections[s].name);
     require_some(scan, selectors[s], set);
     for (const Index f : set.members) in_sets[f].push_back(s);
-    result.areas.push_back(area_of(scan.mesh, set));
+    result.areas.push_back(area_of(scan, set));
     result.sets.push_back(std::move(set));
   }
   std::map<std::vector<Index>, Index> numbers;
