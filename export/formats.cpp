@@ -1,86 +1,195 @@
 #include "export/formats.hpp"
 
+#include "export/aster_mail.hpp"
+#include "export/bdf.hpp"
+#include "export/cdb.hpp"
+#include "export/elmer.hpp"
 #include "export/inp.hpp"
-#include "export/smallest_determinant.hpp"
-#include "export/text_output.hpp"
-#include "export/vtu.hpp"
+#include "export/msh.hpp"
+#include "export/su2.hpp"
+#include "export/surface_files.hpp"
+#include "export/unv.hpp"
+#include "export/vtk.hpp"
+#include "export/xdmf.hpp"
 #include "preproc/mesh/error.hpp"
+#include "preproc/mesh/file_extension.hpp"
+#include "preproc/mesh/read_surface.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 
 namespace scan2fea {
 namespace {
 
-VolumeFormat known_format(const std::filesystem::path& file) {
-  if (const auto format = volume_format(file)) return *format;
-  throw WrongUsage({.what = "not the extension of a volume mesh",
+constexpr Holdings all{.node_sets = true, .face_sets = true, .element_sets = true, .unit = true, .second_order = true};
+constexpr Holdings sets_and_unit{.node_sets = true, .face_sets = true, .unit = true};  // of a surface
+
+constexpr Holdings of_elmer{.face_sets = true, .element_sets = true, .unit = true, .second_order = true};
+constexpr Holdings of_su2{.face_sets = true, .unit = true};
+
+constexpr auto formats = std::to_array<FileFormat>({
+    {".inp", "Abaqus, CalculiX", all, sets_and_unit, write_inp, write_inp, read_inp},
+    {".msh", "Gmsh", all, sets_and_unit, write_msh, write_msh, read_msh},
+    {".vtu", "VTK", all, sets_and_unit, write_vtu, write_vtu, read_vtk_xml},
+    {".bdf", "Nastran", all, sets_and_unit, write_bdf, write_bdf, read_bdf},
+    {".nas", "Nastran", all, sets_and_unit, write_bdf, write_bdf, read_bdf},
+    {".unv", "I-DEAS, Salome", all, sets_and_unit, write_unv, write_unv, read_unv},
+    {".xdmf", "DOLFINx", all, {}, write_xdmf, nullptr, read_xdmf},
+    {".mail", "Code_Aster", all, {}, write_mail, nullptr, read_mail},
+    {".cdb", "ANSYS", all, {}, write_cdb, nullptr, read_cdb},
+    {".header", "Elmer", of_elmer, {}, write_elmer, nullptr, read_elmer},
+    {".su2", "SU2", of_su2, {}, write_su2, nullptr, read_su2},
+    {".vtp", "VTK", {}, sets_and_unit, nullptr, write_vtp, read_vtk_xml},
+    {".stl", "STL", {}, Holdings{}, nullptr, write_plain_surface, read_plain_surface},
+    {".obj", "Wavefront", {}, Holdings{}, nullptr, write_plain_surface, read_plain_surface},
+    {".ply", "Stanford", {}, Holdings{}, nullptr, write_plain_surface, read_plain_surface},
+    {".off", "Geomview", {}, Holdings{}, nullptr, write_plain_surface, read_plain_surface},
+});
+
+std::string list_of(bool (*wanted)(const FileFormat&)) {
+  std::string list;
+  for (const FileFormat& format : formats)
+    if (wanted(format))
+      list += (list.empty() ? "" : ", ") + std::string(format.extension) + " (" + std::string(format.programs) + ")";
+  return list;
+}
+
+[[noreturn]] void fail_unknown(const std::filesystem::path& file, std::string what, std::string advice) {
+  throw WrongUsage({.what = std::move(what),
                     .where = file.string(),
                     .value = file.extension().string(),
                     .limit = {},
-                    .advice = std::string(known_volume_formats())});
+                    .advice = std::move(advice)});
 }
 
-std::string text(double value) {
-  char characters[longest_number];
-  return {characters, write_number(characters, value)};
+std::string names_of(std::span<const NamedSet> sets) {
+  std::string names;
+  for (const NamedSet& set : sets) names += (names.empty() ? "" : ", ") + set.name;
+  return names;
 }
 
-std::vector<std::string> calculix_warnings(const TetMesh& mesh, const std::filesystem::path& file) {
-  const SmallestDeterminant smallest = smallest_determinant(mesh);
-  if (smallest.value >= calculix_smallest_determinant || mesh.tetrahedra.empty()) return {};
-  std::string warning = file.string() + ": CalculiX will refuse element " +
-                        std::to_string(std::uint64_t{smallest.tetrahedron} + 1) + ": Jacobian determinant " +
-                        text(smallest.value) + " (limit: " + text(calculix_smallest_determinant) + ")";
-  if (smallest.value > 0) warning += "; try: a smaller unit of length, millimetres for metres";
-  return {warning};
+// What `mesh`, of either kind, has and the format does not hold.
+template <class Mesh>
+void add_losses(const Mesh& mesh, const Holdings& holds, const std::string& file, Notes& notes) {
+  const auto tell = [&](bool holds_it, const std::string& kind, const std::string& what) {
+    if (!holds_it && !what.empty()) notes.push_back(file + " holds no " + kind + ": left out " + what);
+  };
+  tell(holds.node_sets, "sets of nodes", names_of(mesh.node_sets));
+  tell(holds.face_sets, "sets of faces", names_of(mesh.face_sets));
+  tell(holds.unit, "unit", mesh.unit);
+}
+
+TetMesh without_mid_edge_nodes(const TetMesh& mesh) {
+  std::vector<bool> is_corner(mesh.nodes.size(), false);
+  for (const Tetrahedron& t : mesh.tetrahedra)
+    for (const std::uint32_t n : t) is_corner[n] = true;
+  TetMesh first = mesh;
+  first.mid_edge_nodes.clear();
+  first.nodes.clear();
+  std::vector<std::uint32_t> renumbered(mesh.nodes.size(), 0), origin;
+  for (std::uint32_t n = 0; n < mesh.nodes.size(); ++n) {
+    if (!is_corner[n]) continue;
+    renumbered[n] = static_cast<std::uint32_t>(origin.size());
+    origin.push_back(n);
+    first.nodes.push_back(mesh.nodes[n]);
+  }
+  for (Tetrahedron& t : first.tetrahedra)
+    for (std::uint32_t& n : t) n = renumbered[n];
+  first.node_sets = carried_sets(mesh.node_sets, origin);
+  return first;
 }
 
 }  // namespace
 
-std::optional<VolumeFormat> volume_format(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (extension == ".inp") return VolumeFormat::inp;
-  if (extension == ".msh") return VolumeFormat::msh;
-  if (extension == ".vtu") return VolumeFormat::vtu;
-  return {};
+std::span<const FileFormat> file_formats() {
+  return formats;
 }
 
-std::string_view known_volume_formats() {
-  return ".inp (Abaqus, CalculiX), .msh (Gmsh), .vtu (VTK)";
+const FileFormat* find_format(const std::filesystem::path& file) {
+  const std::string extension = lower_case_extension(file);
+  const auto* const it =
+      std::find_if(formats.begin(), formats.end(), [&](const FileFormat& f) { return f.extension == extension; });
+  return it == formats.end() ? nullptr : it;
 }
 
-VolumeFileWritten write_volume(const TetMesh& mesh, const std::filesystem::path& file,
-                               const VolumeFileOptions& options) {
-  VolumeFileWritten written;
-  switch (known_format(file)) {
-    case VolumeFormat::inp:
-      write_inp(mesh, file, {.unit = options.unit, .provenance = options.provenance});
-      written.warnings = calculix_warnings(mesh, file);
-      break;
-    case VolumeFormat::msh:
-      write_msh(mesh, file, {.version = options.msh_version});
-      break;
-    case VolumeFormat::vtu:
-      write_vtu(mesh, file, {.unit = options.unit, .provenance = options.provenance});
-      break;
+bool writes_volume(const std::filesystem::path& file) {
+  const FileFormat* format = find_format(file);
+  return format != nullptr && format->write_volume != nullptr;
+}
+
+bool writes_surface(const std::filesystem::path& file) {
+  const FileFormat* format = find_format(file);
+  return format != nullptr && format->write_surface != nullptr;
+}
+
+std::string known_volume_formats() {
+  return list_of([](const FileFormat& f) { return f.write_volume != nullptr; });
+}
+
+std::string known_surface_formats_to_write() {
+  return list_of([](const FileFormat& f) { return f.write_surface != nullptr; });
+}
+
+Notes write_volume(const TetMesh& mesh, const std::filesystem::path& file, const FileOptions& options) {
+  if (!writes_volume(file)) fail_unknown(file, "not the extension of a volume mesh", known_volume_formats());
+  const FileFormat& format = *find_format(file);
+  Notes notes;
+  add_losses(mesh, *format.volume, file.string(), notes);
+  if (!format.volume->element_sets && !mesh.element_sets.empty())
+    notes.push_back(file.string() + " holds no sets of elements: left out " + names_of(mesh.element_sets));
+  const bool lowers_order = mesh.order() == 2 && !format.volume->second_order;
+  if (lowers_order)
+    notes.push_back(file.string() + " holds no elements of second order: left out the nodes in the middle of edges");
+  for (std::string& note : format.write_volume(lowers_order ? without_mid_edge_nodes(mesh) : mesh, file, options))
+    notes.push_back(std::move(note));
+  return notes;
+}
+
+Notes write_surface(const NamedSurface& surface, const std::filesystem::path& file, const FileOptions& options) {
+  if (!writes_surface(file)) fail_unknown(file, "not the extension of a surface", known_surface_formats_to_write());
+  const FileFormat& format = *find_format(file);
+  Notes notes;
+  add_losses(surface, *format.surface, file.string(), notes);
+  for (std::string& note : format.write_surface(surface, file, options)) notes.push_back(std::move(note));
+  return notes;
+}
+
+NamedSurface named_boundary(const TetMesh& mesh, Notes& notes) {
+  NamedSurface surface{.mesh = {}, .node_sets = {}, .face_sets = mesh.face_sets, .unit = mesh.unit};
+  std::vector<std::uint32_t> renumbered(mesh.nodes.size(), 0), origin;
+  for (const BoundaryFace f : mesh.boundary) {
+    surface.mesh.triangles.push_back(boundary_triangle(mesh, f));
+    for (const std::uint32_t n : surface.mesh.triangles.back()) renumbered[n] = 1;
   }
-  return written;
+  for (std::uint32_t n = 0; n < renumbered.size(); ++n) {
+    if (renumbered[n] == 0) continue;
+    renumbered[n] = static_cast<std::uint32_t>(origin.size());
+    origin.push_back(n);
+    surface.mesh.vertices.push_back(mesh.nodes[n]);
+  }
+  for (Triangle& t : surface.mesh.triangles)
+    for (std::uint32_t& n : t) n = renumbered[n];
+  surface.node_sets = carried_sets(mesh.node_sets, origin);
+  for (std::size_t s = 0; s < mesh.node_sets.size(); ++s)
+    if (surface.node_sets[s].members.size() < mesh.node_sets[s].members.size())
+      notes.push_back("set " + mesh.node_sets[s].name + ": nodes that are no corners of the boundary are left out");
+  if (!mesh.element_sets.empty())
+    notes.push_back("a surface has no sets of tetrahedra: left out " + names_of(mesh.element_sets));
+  return surface;
+}
+
+MeshFile read_mesh(const std::filesystem::path& file) {
+  const FileFormat* format = find_format(file);
+  return format == nullptr || format->read == nullptr ? read_plain_surface(file) : format->read(file);
 }
 
 TetMesh read_volume(const std::filesystem::path& file) {
-  switch (known_format(file)) {
-    case VolumeFormat::inp:
-      return read_inp(file);
-    case VolumeFormat::msh:
-      return read_msh(file);
-    case VolumeFormat::vtu:
-      return read_vtu(file);
-  }
-  return {};
+  const FileFormat* format = find_format(file);
+  if (format == nullptr || !format->volume)
+    fail_unknown(file, "not the extension of a volume mesh", known_volume_formats());
+  MeshFile read = format->read(file);
+  if (!read.is_volume()) throw InvalidInput({"holds no tetrahedra", file.string(), {}, {}, {}});
+  return std::get<TetMesh>(std::move(read.mesh));
 }
 
 }  // namespace scan2fea

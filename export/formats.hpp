@@ -1,43 +1,66 @@
-// The formats of volume meshes, told by the file's extension.
+// The formats of files of meshes, in one table: what each is called, what it holds, and who writes and reads it. The
+// help of the command, what `convert` says it lost, and the test of all conversions come from this table.
 #pragma once
 
-#include "export/msh.hpp"
-#include "preproc/mesh/tet_mesh.hpp"
+#include "export/mesh_file.hpp"
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace scan2fea {
 
-enum class VolumeFormat { inp, msh, vtu };
-
-// By the extension, upper or lower case; nothing where it is not one of a volume mesh.
-std::optional<VolumeFormat> volume_format(const std::filesystem::path& file);
-
-// For messages: ".inp (Abaqus, CalculiX), .msh (Gmsh), .vtu (VTK)".
-std::string_view known_volume_formats();
-
-struct VolumeFileOptions {
-  std::string unit;                           // of length, for the headers of formats that have room for it
-  std::string provenance;                     // where the mesh comes from, one line, likewise
-  MshVersion msh_version = MshVersion::v4_1;  // see MshOptions
+// What a format keeps of a mesh besides nodes and elements.
+struct Holdings {
+  bool node_sets = false;
+  bool face_sets = false;
+  bool element_sets = false;
+  bool unit = false;
+  bool second_order = false;
 };
 
-// What the user should know of a file that was written all the same; each entry is one line.
-struct VolumeFileWritten {
-  std::vector<std::string> warnings;
+struct FileFormat {
+  std::string_view extension;       // ".inp"
+  std::string_view programs;        // "Abaqus, CalculiX"
+  std::optional<Holdings> volume;   // of tetrahedra; nothing where the format has none, or we know them not
+  std::optional<Holdings> surface;  // of triangles alone, likewise
+  Notes (*write_volume)(const TetMesh&, const std::filesystem::path&, const FileOptions&) = nullptr;
+  Notes (*write_surface)(const NamedSurface&, const std::filesystem::path&, const FileOptions&) = nullptr;
+  MeshFile (*read)(const std::filesystem::path&) = nullptr;
 };
 
-// Throws WrongUsage for an unknown extension, IoError where the file cannot be written.
-VolumeFileWritten write_volume(const TetMesh& mesh, const std::filesystem::path& file,
-                               const VolumeFileOptions& options = {});
+std::span<const FileFormat> file_formats();
 
-// Throws WrongUsage for an unknown extension, InvalidInput for what the readers of the formats say. The boundary of the
-// mesh is found anew, ordered by tetrahedron and face, and nodes keep the file's order; so "boundary nodes come first"
-// holds only for files that were written so. Elements are taken as they are, inverted ones included.
+// By the extension, upper or lower case, `.gz` behind it passed over; null where it is not known.
+const FileFormat* find_format(const std::filesystem::path& file);
+
+// Whether a volume mesh, or a surface, can be written there.
+bool writes_volume(const std::filesystem::path& file);
+bool writes_surface(const std::filesystem::path& file);
+
+// For messages: ".inp (Abaqus, CalculiX), .msh (Gmsh), ...".
+std::string known_volume_formats();
+std::string known_surface_formats_to_write();
+
+// Writes the mesh, and notes what of it the format cannot hold. Throws WrongUsage for an extension that is not one of
+// the format's kind, IoError where the file cannot be written; an earlier file is then untouched.
+Notes write_volume(const TetMesh& mesh, const std::filesystem::path& file, const FileOptions& options = {});
+Notes write_surface(const NamedSurface& surface, const std::filesystem::path& file, const FileOptions& options = {});
+
+// Reads whatever the file holds. A surface's format is told by its content, where that is certain, and otherwise by the
+// extension. Throws WrongUsage for an unknown extension, InvalidInput for what the readers of the formats say. The
+// boundary of a volume mesh is found anew, ordered by tetrahedron and face, and nodes keep the file's order; so
+// "boundary nodes come first" holds only for files that were written so. Elements are taken as they are, inverted ones
+// included.
+MeshFile read_mesh(const std::filesystem::path& file);
+
+// The same, and InvalidInput where the file holds no tetrahedra.
 TetMesh read_volume(const std::filesystem::path& file);
+
+// The boundary with its sets, for formats that hold no tetrahedra; what only tetrahedra have is noted.
+NamedSurface named_boundary(const TetMesh& mesh, Notes& notes);
 
 }  // namespace scan2fea

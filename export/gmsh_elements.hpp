@@ -6,7 +6,8 @@
 
 namespace scan2fea {
 
-// Types are numbers, in files and for the SDK.
+// Types are numbers, in files.
+inline constexpr int gmsh_point = 15;
 inline constexpr int gmsh_triangle_3 = 2;
 inline constexpr int gmsh_tetrahedron_4 = 4;
 inline constexpr int gmsh_triangle_6 = 9;

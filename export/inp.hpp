@@ -11,28 +11,29 @@
 // CalculiX 2.20 reads at most 20 characters of a number, 10 of an integer and 132 of a line; all lines keep to that.
 #pragma once
 
-#include "preproc/mesh/tet_mesh.hpp"
+#include "export/mesh_file.hpp"
 
 #include <filesystem>
-#include <string>
 
 namespace scan2fea {
 
-struct InpOptions {
-  std::string unit;  // of length, "mm"; written as a comment, since a deck has no field for it. Empty: not written.
-  std::string provenance;  // where the mesh comes from, one line of text for the header's comment. Empty: not written.
-};
-
-// Node and element numbers are the indices of `mesh` plus one. Coordinates are written with the fewest digits that
-// round-trip or, where these take more than 20 characters, with the most that fit (see write_number).
+// Besides those above, per set: *NSET; *ELSET; and of faces a *SURFACE made of element sets NAME_S1 .. NAME_S4, with
+// its nodes as NAME_NODES. Node and element numbers are the indices of `mesh` plus one. Coordinates are written with
+// the fewest digits that round-trip or, where these take more than 20 characters, with the most that fit (see
+// write_number). The unit is a comment, since a deck has no field for it. Notes elements that CalculiX will refuse,
+// and names that had to be changed.
 // Precondition: mesh.boundary lists the boundary faces. Throws IoError; an existing file is then untouched. O(n).
-void write_inp(const TetMesh& mesh, const std::filesystem::path& file, const InpOptions& options = {});
+Notes write_inp(const TetMesh& mesh, const std::filesystem::path& file, const FileOptions& options = {});
 
-// Reads the tetrahedra of a deck: *NODE and *ELEMENT of C3D4.. and C3D10.. types (and their DC3D.. heat variants), any
-// numbering, several blocks, continuation lines. Elements of lines and surfaces, and all other keywords, are passed
-// over. The nodes that tetrahedra use are kept, in the order of their numbers; the elements in the order of the file.
-// Throws InvalidInput naming file and line: unreadable, no tetrahedra, solid elements of another shape, orders mixed,
+// As elements S3, sets of faces as *ELSET.
+Notes write_inp(const NamedSurface& surface, const std::filesystem::path& file, const FileOptions& options = {});
+
+// Reads the tetrahedra of a deck, or where it has none its triangles: *NODE and *ELEMENT of C3D4.. and C3D10.. types
+// (and their DC3D.. heat variants), of shells and membranes of three and six nodes, any numbering, several blocks,
+// continuation lines; *NSET, *ELSET (also GENERATE, and sets of sets) and *SURFACE. All other keywords are passed over.
+// The nodes that elements use are kept, in the order of their numbers; the elements in the order of the file.
+// Throws InvalidInput naming file and line: unreadable, no elements, solid elements of another shape, orders mixed,
 // a number that does not parse, a node that is missing or defined twice. *INCLUDE is not followed.
-TetMesh read_inp(const std::filesystem::path& file);
+MeshFile read_inp(const std::filesystem::path& file);
 
 }  // namespace scan2fea

@@ -1,5 +1,8 @@
 #include "export/inp.hpp"
+#include "export/set_names.hpp"
+#include "export/smallest_determinant.hpp"
 #include "export/text_output.hpp"
+#include "export/unit_comment.hpp"
 #include "preproc/mesh/output_file.hpp"
 
 #include <algorithm>
@@ -20,22 +23,20 @@ void write_comment(TextOutput& out, std::string_view text) {
   for (std::size_t i = 0; i < line.size(); i += width) out << start << std::string_view(line).substr(i, width) << "\n";
 }
 
-void write_header(TextOutput& out, const TetMesh& mesh, const InpOptions& options) {
+void write_header(TextOutput& out, const std::vector<Vec3>& nodes, const std::string& unit,
+                  const FileOptions& options) {
   write_comment(out, "written by scan2fea for Abaqus and CalculiX");
   if (!options.provenance.empty()) write_comment(out, options.provenance);
-  if (!options.unit.empty()) write_comment(out, "unit of length: " + options.unit);
-  const BoundingBox box = bounding_box(mesh.nodes);
+  if (!unit.empty()) write_comment(out, unit_comment(unit));
+  const BoundingBox box = bounding_box(nodes);
   out << "** bounding box, low:  " << box.low.x() << " " << box.low.y() << " " << box.low.z() << "\n";
   out << "** bounding box, high: " << box.high.x() << " " << box.high.y() << " " << box.high.z() << "\n";
-  out << "** " << mesh.nodes.size() << " nodes, " << mesh.tetrahedra.size() << " tetrahedra, " << mesh.boundary.size()
-      << " boundary faces\n";
-  write_comment(out, "sets: NALL (nodes), EALL (elements), SALL (surface), SALL_NODES (nodes of the surface)");
 }
 
-void write_nodes(TextOutput& out, const TetMesh& mesh) {
+void write_nodes(TextOutput& out, const std::vector<Vec3>& nodes) {
   out << "*NODE, NSET=NALL\n";
-  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
-    const Vec3& p = mesh.nodes[n];
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    const Vec3& p = nodes[n];
     out << n + 1 << ", " << p.x() << ", " << p.y() << ", " << p.z() << "\n";
   }
 }
@@ -76,26 +77,93 @@ void write_surface_set(TextOutput& out, const TetMesh& mesh, const std::string& 
   write_numbers(out, nodes_of_faces(mesh, faces));
 }
 
-void write_boundary(TextOutput& out, const TetMesh& mesh) {
-  if (mesh.boundary.empty()) return;
-  std::vector<std::uint32_t> all(mesh.boundary.size());
-  std::iota(all.begin(), all.end(), 0U);
-  write_surface_set(out, mesh, "SALL", all);
-  for (const NamedSet& set : mesh.face_sets) write_surface_set(out, mesh, set.name, set.members);
+void write_sets(TextOutput& out, const char* keyword, std::span<const NamedSet> sets,
+                std::span<const std::string> names) {
+  for (std::size_t s = 0; s < sets.size(); ++s) {
+    out << keyword << names[s] << "\n";
+    write_numbers(out, sets[s].members);
+  }
+}
+
+// CalculiX takes 80 characters, of which a surface's parts need six.
+constexpr NameRules rules{.longest = 74, .upper_case = true, .allowed = "_-.", .starts_with_letter = true};
+
+// Names of surfaces, and with their parts' endings those that element and node sets must not have.
+struct SurfaceNames {
+  std::vector<std::string> names, parts, nodes;
+};
+
+SurfaceNames surface_names(const TetMesh& mesh, Notes& notes) {
+  SurfaceNames surfaces{.names = names_for(mesh.face_sets, rules, {}, notes), .parts = {}, .nodes = {}};
+  for (const std::string& name : surfaces.names) {
+    for (const char* end : {"_S1", "_S2", "_S3", "_S4"}) surfaces.parts.push_back(name + end);
+    surfaces.nodes.push_back(name + "_NODES");
+  }
+  return surfaces;
+}
+
+Notes determinant_notes(const TetMesh& mesh, const std::filesystem::path& file) {
+  const SmallestDeterminant smallest = smallest_determinant(mesh);
+  if (smallest.value >= calculix_smallest_determinant || mesh.tetrahedra.empty()) return {};
+  const auto text = [](double value) {
+    char characters[longest_number];
+    return std::string(characters, write_number(characters, value));
+  };
+  std::string note = file.string() + ": CalculiX will refuse element " +
+                     std::to_string(std::uint64_t{smallest.tetrahedron} + 1) + ": Jacobian determinant " +
+                     text(smallest.value) + " (limit: " + text(calculix_smallest_determinant) + ")";
+  if (smallest.value > 0) note += "; try: a smaller unit of length, millimetres for metres";
+  return {note};
 }
 
 }  // namespace
 
-void write_inp(const TetMesh& mesh, const std::filesystem::path& file, const InpOptions& options) {
+Notes write_inp(const TetMesh& mesh, const std::filesystem::path& file, const FileOptions& options) {
+  Notes notes = determinant_notes(mesh, file);
+  const SurfaceNames surfaces = surface_names(mesh, notes);
+  const std::vector<std::string> elements = names_for(mesh.element_sets, rules, surfaces.parts, notes);
+  const std::vector<std::string> nodes = names_for(mesh.node_sets, rules, surfaces.nodes, notes);
   OutputFile output(file);
   {
     TextOutput out(output.stream());
-    write_header(out, mesh, options);
-    write_nodes(out, mesh);
+    write_header(out, mesh.nodes, mesh.unit, options);
+    out << "** " << mesh.nodes.size() << " nodes, " << mesh.tetrahedra.size() << " tetrahedra, " << mesh.boundary.size()
+        << " boundary faces\n";
+    write_comment(out, "sets: NALL (nodes), EALL (elements), SALL (surface), SALL_NODES (nodes of the surface)");
+    write_nodes(out, mesh.nodes);
     write_elements(out, mesh);
-    write_boundary(out, mesh);
+    write_sets(out, "*ELSET, ELSET=", mesh.element_sets, elements);
+    write_sets(out, "*NSET, NSET=", mesh.node_sets, nodes);
+    std::vector<std::uint32_t> all(mesh.boundary.size());
+    std::iota(all.begin(), all.end(), 0U);
+    write_surface_set(out, mesh, "SALL", all);
+    for (std::size_t s = 0; s < mesh.face_sets.size(); ++s)
+      write_surface_set(out, mesh, surfaces.names[s], mesh.face_sets[s].members);
   }
   output.commit();
+  return notes;
+}
+
+Notes write_inp(const NamedSurface& surface, const std::filesystem::path& file, const FileOptions& options) {
+  Notes notes;
+  const std::vector<std::string> elements = names_for(surface.face_sets, rules, {}, notes);
+  const std::vector<std::string> nodes = names_for(surface.node_sets, rules, {}, notes);
+  OutputFile output(file);
+  {
+    TextOutput out(output.stream());
+    write_header(out, surface.mesh.vertices, surface.unit, options);
+    write_nodes(out, surface.mesh.vertices);
+    out << "*ELEMENT, TYPE=S3, ELSET=EALL\n";
+    for (std::size_t t = 0; t < surface.mesh.triangles.size(); ++t) {
+      out << t + 1;
+      for (const std::uint32_t v : surface.mesh.triangles[t]) out << "," << std::uint64_t{v} + 1;
+      out << "\n";
+    }
+    write_sets(out, "*ELSET, ELSET=", surface.face_sets, elements);
+    write_sets(out, "*NSET, NSET=", surface.node_sets, nodes);
+  }
+  output.commit();
+  return notes;
 }
 
 }  // namespace scan2fea

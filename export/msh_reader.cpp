@@ -1,6 +1,7 @@
 #include "export/gmsh_elements.hpp"
 #include "export/msh.hpp"
 #include "export/raw_mesh.hpp"
+#include "export/unit_comment.hpp"
 #include "preproc/mesh/byte_order.hpp"
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/input_file.hpp"
@@ -10,7 +11,9 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <map>
 #include <string>
+#include <utility>
 
 namespace scan2fea {
 namespace {
@@ -59,6 +62,21 @@ class Numbers {
     return {};
   }
 
+  // The text up to the end of the line, without it.
+  std::string_view rest_of_line() {
+    const char* const start = scanner_.position();
+    scanner_.skip_line();
+    std::string_view line(start, static_cast<std::size_t>(scanner_.position() - start));
+    while (!line.empty() && (line.back() == '\n' || line.back() == '\r')) line.remove_suffix(1);
+    return line;
+  }
+
+  // What is left of the section.
+  std::string_view section_text(const std::string& name) {
+    const std::string_view rest(scanner_.position(), scanner_.bytes_left());
+    return rest.substr(0, rest.find("$End" + name));
+  }
+
   // Behind the closing tag of a section whose content was read or is not needed.
   void close_section(const std::string& name) {
     const std::string tag = "$End" + name;
@@ -97,12 +115,18 @@ class Reader {
  public:
   explicit Reader(const std::filesystem::path& path) : file_(path), in_(file_) {}
 
-  TetMesh read() {
+  MeshFile read() {
     if (!file_.bytes().starts_with("$MeshFormat") && !file_.bytes().starts_with("$Comments"))
       file_.fail("not a Gmsh mesh file: does not begin with $MeshFormat");
     for (std::string section = in_.next_section(); !section.empty(); section = in_.next_section()) {
       if (section == "MeshFormat")
         read_format();
+      else if (section == "Comments")
+        read_comments();
+      else if (section == "PhysicalNames")
+        read_names();
+      else if (section == "Entities" && version_4_)
+        read_entities();
       else if (section == "Nodes")
         version_4_ ? read_nodes_4() : read_nodes_2();
       else if (section == "Elements")
@@ -111,10 +135,13 @@ class Reader {
         in_.fail("nodes with parametric coordinates are not read", {}, {}, "Gmsh's Mesh.SaveParametric = 0");
       in_.close_section(section);
     }
-    const std::string name = file_.path().string();
-    return assemble(
-        raw_, file_.path(), [&](std::size_t n) { return name + ": node " + std::to_string(raw_.node_numbers[n]); },
-        [&](std::size_t e) { return name + ": element " + std::to_string(element_numbers_[e]); });
+    for (auto& [key, members] : groups_) {
+      const auto known = names_.find(key);
+      const std::string name = known != names_.end() ? known->second : "PHYSICAL_" + std::to_string(key.second);
+      auto& all = members_of(key.first == 0 ? raw_.node_sets : raw_.element_sets, name);
+      all.insert(all.end(), members.begin(), members.end());
+    }
+    return assemble(raw_, file_.path());
   }
 
  private:
@@ -133,6 +160,38 @@ class Reader {
     if (one == 1) return;
     if (one != 0x01000000) in_.fail("the byte order cannot be told");
     in_.set_binary(std::endian::big);
+  }
+
+  void read_comments() {
+    if (const auto unit = unit_in_comment(in_.section_text("Comments"))) raw_.unit = *unit;
+  }
+
+  // Text in binary files, too.
+  void read_names() {
+    const std::int64_t count = in_.text_integer();
+    for (std::int64_t n = 0; n < count; ++n) {
+      const std::int64_t dimension = in_.text_integer(), tag = in_.text_integer();
+      std::string_view line = in_.rest_of_line();
+      const std::size_t open = line.find('"'), close = line.rfind('"');
+      if (open == std::string_view::npos || close <= open) in_.fail("a physical name without quotes");
+      names_[{dimension, tag}] = line.substr(open + 1, close - open - 1);
+    }
+  }
+
+  void read_entities() {
+    std::array<std::uint64_t, 4> counts{};
+    for (std::uint64_t& count : counts) count = in_.size();
+    for (std::int64_t dimension = 0; dimension < 4; ++dimension)
+      for (std::uint64_t e = 0; e < counts[static_cast<std::size_t>(dimension)]; ++e) {
+        const std::int64_t tag = in_.integer();
+        for (int k = 0; k < (dimension == 0 ? 3 : 6); ++k) in_.real();
+        const std::uint64_t physical = in_.size();
+        for (std::uint64_t k = 0; k < physical; ++k)
+          physical_[{dimension, tag}].push_back(std::abs(in_.integer()));  // < 0: turned round
+        if (dimension == 0) continue;
+        const std::uint64_t bounding = in_.size();
+        for (std::uint64_t k = 0; k < bounding; ++k) in_.integer();
+      }
   }
 
   void read_node(std::uint64_t number) {
@@ -184,8 +243,10 @@ class Reader {
       const std::int64_t tags = in_.integer();
       for (std::int64_t k = 0; k < in_block; ++k, ++e) {
         if (in_.binary()) number = in_.integer();
-        for (std::int64_t t = 0; t < tags; ++t) in_.integer();
-        read_element(type, number, [&] { return static_cast<std::uint64_t>(in_.integer()); });
+        std::vector<std::int64_t> physical;  // the first tag, where there is one
+        for (std::int64_t t = 0; t < tags; ++t)
+          if (const std::int64_t tag = in_.integer(); t == 0 && tag != 0) physical.push_back(tag);
+        read_element(type, number, physical, [&] { return static_cast<std::uint64_t>(in_.integer()); });
       }
     }
   }
@@ -194,45 +255,68 @@ class Reader {
     const std::uint64_t blocks = in_.size();
     for (int k = 0; k < 3; ++k) in_.size();
     for (std::uint64_t b = 0; b < blocks; ++b) {
-      in_.integer();
-      in_.integer();
+      const std::int64_t dimension = in_.integer(), entity = in_.integer();
       const std::int64_t type = in_.integer();
       const std::uint64_t count = in_.size();
+      const auto physical = physical_.find({dimension, entity});
+      const std::vector<std::int64_t> tags =
+          physical == physical_.end() ? std::vector<std::int64_t>{} : physical->second;
       for (std::uint64_t e = 0; e < count; ++e) {
         const auto number = static_cast<std::int64_t>(in_.size());
-        read_element(type, number, [&] { return in_.size(); });
+        read_element(type, number, tags, [&] { return in_.size(); });
       }
     }
   }
 
   template <class ReadNode>
-  void read_element(std::int64_t type, std::int64_t number, ReadNode read_node_number) {
+  void read_element(std::int64_t type, std::int64_t number, const std::vector<std::int64_t>& physical,
+                    ReadNode read_node_number) {
     const auto* const known = std::find_if(element_types.begin(), element_types.end(),
                                            [&](const ElementType& t) { return t.number == type; });
     if (known == element_types.end())
       in_.fail("element is not a tetrahedron of first or second order", "Gmsh type " + std::to_string(type));
     std::array<std::uint64_t, 25> nodes{};
     for (int k = 0; k < known->nodes; ++k) nodes[static_cast<std::size_t>(k)] = read_node_number();
-    if (type != gmsh_tetrahedron_4 && type != gmsh_tetrahedron_10) return;
-    const bool quadratic = type == gmsh_tetrahedron_10;
+    const auto add_to_groups = [&](std::int64_t dimension, std::uint64_t member) {
+      for (const std::int64_t tag : physical) groups_[{dimension, tag}].push_back(member);
+    };
+    const auto element = static_cast<std::uint64_t>(number);
+    if (type == gmsh_point) {
+      add_to_groups(0, nodes[0]);
+    } else if (type == gmsh_triangle_3 || type == gmsh_triangle_6) {
+      raw_.triangles.insert(raw_.triangles.end(), nodes.begin(), nodes.begin() + 3);
+      raw_.triangle_numbers.push_back(element);
+      add_to_groups(2, element);
+    } else if (type == gmsh_tetrahedron_4 || type == gmsh_tetrahedron_10) {
+      add_tetrahedron(nodes, type == gmsh_tetrahedron_10);
+      raw_.tetrahedron_numbers.push_back(element);
+      add_to_groups(3, element);
+    } else {
+      ++raw_.passed_over;
+    }
+  }
+
+  void add_tetrahedron(const std::array<std::uint64_t, 25>& nodes, bool quadratic) {
     if (!raw_.corners.empty() && quadratic == raw_.mid_edges.empty())
       in_.fail("tetrahedra of first and of second order in one mesh");
     raw_.corners.insert(raw_.corners.end(), nodes.begin(), nodes.begin() + 4);
     if (quadratic)
       for (const std::size_t k : gmsh_mid_edges) raw_.mid_edges.push_back(nodes[4 + k]);
-    element_numbers_.push_back(number);
   }
 
   InputFile file_;
   Numbers in_;
   bool version_4_ = false;
   RawMesh raw_;
-  std::vector<std::int64_t> element_numbers_;
+  using Tag = std::pair<std::int64_t, std::int64_t>;   // dimension and number
+  std::map<Tag, std::string> names_;                   // of physical groups
+  std::map<Tag, std::vector<std::int64_t>> physical_;  // groups of entities
+  std::map<Tag, std::vector<std::uint64_t>> groups_;   // members of physical groups
 };
 
 }  // namespace
 
-TetMesh read_msh(const std::filesystem::path& file) {
+MeshFile read_msh(const std::filesystem::path& file) {
   return Reader(file).read();
 }
 

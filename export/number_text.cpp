@@ -63,6 +63,22 @@ std::optional<Text> fixed(double value, int digits) {
   return without_leading_zero(printed(value, std::chars_format::fixed, decimals));
 }
 
+// "1.5e-3" -> "1.5-3", "2e5" -> "2.+5", "2" -> "2."
+Text in_nastran_form(const Text& text) {
+  const std::string_view all = text.view(), mantissa = all.substr(0, all.find('e')),
+                         exponent = all.substr(std::min(mantissa.size() + 1, all.size()));
+  Text result;
+  const auto add = [&](std::string_view piece) {
+    std::copy(piece.begin(), piece.end(), result.characters + result.size);
+    result.size += piece.size();
+  };
+  add(mantissa);
+  if (mantissa.find('.') == std::string_view::npos) add(".");
+  if (!exponent.empty() && exponent.front() != '-') add("+");
+  add(exponent);
+  return result;
+}
+
 }  // namespace
 
 char* write_number(char* text, double value) {
@@ -71,6 +87,19 @@ char* write_number(char* text, double value) {
     best = scientific(value, digits);
     if (best.size <= longest_number) break;
     if (const auto candidate = fixed(value, digits); candidate && candidate->size <= longest_number) best = *candidate;
+  }
+  return std::copy_n(best.characters, best.size, text);
+}
+
+char* write_nastran_number(char* text, double value) {
+  Text best = in_nastran_form(without_exponent_padding(printed(value)));
+  for (int digits = 17; best.size > nastran_width; --digits) {
+    best = in_nastran_form(scientific(value, digits));
+    if (best.size <= nastran_width) break;
+    if (const auto candidate = fixed(value, digits)) {
+      const Text with_point = in_nastran_form(*candidate);
+      if (with_point.size <= nastran_width) best = with_point;
+    }
   }
   return std::copy_n(best.characters, best.size, text);
 }

@@ -14,4 +14,12 @@ inline constexpr std::size_t longest_number = 20;
 // Precondition: `value` is finite.
 char* write_number(char* text, double value);
 
+// Nastran's large field.
+inline constexpr std::size_t nastran_width = 16;
+
+// Likewise for Nastran, with room for `nastran_width` characters: a decimal point always, and an exponent without its
+// letter ("1.5-3"): the form with the most significant digits that fits, at least 11, or the shortest that reads back
+// to the same bits.
+char* write_nastran_number(char* text, double value);
+
 }  // namespace scan2fea

@@ -1,10 +1,12 @@
 #include "export/raw_mesh.hpp"
 
+#include "export/raw_sets.hpp"
 #include "preproc/mesh/error.hpp"
 
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 namespace scan2fea {
 namespace {
@@ -60,41 +62,120 @@ void require_distinct(const TetMesh& mesh, const Place& place_of_element) {
   }
 }
 
-}  // namespace
-
-TetMesh assemble(const RawMesh& raw, const std::filesystem::path& file, const Place& place_of_node,
-                 const Place& place_of_element) {
-  const std::size_t elements = raw.corners.size() / 4;
-  const auto fail = [&](std::string what, std::string where) {
-    throw InvalidInput({.what = std::move(what), .where = std::move(where), .value = {}, .limit = {}, .advice = {}});
-  };
-  if (elements == 0) fail("holds no tetrahedra", file.string());
-  if (raw.nodes.size() >= no_index || elements >= no_index / 4) fail("holds more than 2^30 elements", file.string());
-  if (!raw.mid_edges.empty() && raw.mid_edges.size() != 6 * elements)
-    fail("holds tetrahedra of first and of second order", file.string());
-
-  const std::vector<std::uint32_t> order = by_number(raw, place_of_node);
-  std::vector<std::uint32_t> corners = resolve(raw, order, raw.corners, 4, place_of_element);
-  std::vector<std::uint32_t> mid_edges = resolve(raw, order, raw.mid_edges, 6, place_of_element);
-
-  std::vector<std::uint32_t> renumbered(order.size(), no_index);
-  for (const std::uint32_t n : corners) renumbered[n] = 0;
-  for (const std::uint32_t n : mid_edges) renumbered[n] = 0;
-  TetMesh mesh;
-  for (std::size_t n = 0; n < order.size(); ++n) {
-    if (renumbered[n] == no_index) continue;
-    if (!raw.nodes[order[n]].allFinite()) fail("coordinate is not a finite number", place_of_node(order[n]));
-    renumbered[n] = static_cast<std::uint32_t>(mesh.nodes.size());
-    mesh.nodes.push_back(raw.nodes[order[n]]);
+// Nodes that elements use become the nodes of a mesh, in the order of their numbers.
+class NodeMap {
+ public:
+  NodeMap(const RawMesh& raw, const Place& place_of_node)
+      : raw_(raw), place_of_node_(place_of_node), order_(by_number(raw, place_of_node)) {
+    renumbered_.resize(order_.size(), no_index);
   }
 
-  mesh.tetrahedra.resize(elements);
-  for (std::size_t i = 0; i < corners.size(); ++i) mesh.tetrahedra[i / 4][i % 4] = renumbered[corners[i]];
+  // As positions in `order_`, which `index_of` turns into nodes of the mesh when all are known.
+  std::vector<std::uint32_t> use(const std::vector<std::uint64_t>& numbers, std::size_t per_element,
+                                 const Place& place_of_element) {
+    std::vector<std::uint32_t> positions = resolve(raw_, order_, numbers, per_element, place_of_element);
+    for (const std::uint32_t n : positions) renumbered_[n] = 0;
+    return positions;
+  }
+
+  std::vector<Vec3> nodes() {
+    std::vector<Vec3> nodes;
+    for (std::size_t n = 0; n < order_.size(); ++n) {
+      if (renumbered_[n] == no_index) continue;
+      if (!raw_.nodes[order_[n]].allFinite())
+        throw InvalidInput({"coordinate is not a finite number", place_of_node_(order_[n]), {}, {}, {}});
+      renumbered_[n] = static_cast<std::uint32_t>(nodes.size());
+      nodes.push_back(raw_.nodes[order_[n]]);
+    }
+    return nodes;
+  }
+
+  std::uint32_t index_of(std::uint32_t position) const { return renumbered_[position]; }
+
+  // What `number` is in the mesh; nothing where no element uses it.
+  std::optional<std::uint32_t> find(std::uint64_t number) const {
+    const auto it = std::lower_bound(order_.begin(), order_.end(), number, [&](std::uint32_t n, std::uint64_t wanted) {
+      return raw_.node_numbers[n] < wanted;
+    });
+    if (it == order_.end() || raw_.node_numbers[*it] != number) return {};
+    const std::uint32_t index = renumbered_[static_cast<std::size_t>(it - order_.begin())];
+    if (index == no_index) return {};
+    return index;
+  }
+
+ private:
+  const RawMesh& raw_;
+  const Place& place_of_node_;
+  std::vector<std::uint32_t> order_, renumbered_;
+};
+
+TetMesh tetrahedra_of(const RawMesh& raw, NodeMap& map, const Place& place_of_element) {
+  const std::vector<std::uint32_t> corners = map.use(raw.corners, 4, place_of_element);
+  const std::vector<std::uint32_t> mid_edges = map.use(raw.mid_edges, 6, place_of_element);
+  TetMesh mesh;
+  mesh.nodes = map.nodes();
+  mesh.tetrahedra.resize(corners.size() / 4);
+  for (std::size_t i = 0; i < corners.size(); ++i) mesh.tetrahedra[i / 4][i % 4] = map.index_of(corners[i]);
   mesh.mid_edge_nodes.resize(mid_edges.size() / 6);
-  for (std::size_t i = 0; i < mid_edges.size(); ++i) mesh.mid_edge_nodes[i / 6][i % 6] = renumbered[mid_edges[i]];
+  for (std::size_t i = 0; i < mid_edges.size(); ++i) mesh.mid_edge_nodes[i / 6][i % 6] = map.index_of(mid_edges[i]);
   require_distinct(mesh, place_of_element);
   mesh.boundary = find_boundary(mesh.tetrahedra);
+  mesh.unit = raw.unit;
   return mesh;
+}
+
+// What a scan may have, triangles that repeat a corner among it, is left to the repair.
+NamedSurface surface_of(const RawMesh& raw, NodeMap& map, const Place& place_of_element) {
+  const std::vector<std::uint32_t> corners = map.use(raw.triangles, 3, place_of_element);
+  NamedSurface surface;
+  surface.mesh.vertices = map.nodes();
+  surface.mesh.triangles.resize(corners.size() / 3);
+  for (std::size_t i = 0; i < corners.size(); ++i) surface.mesh.triangles[i / 3][i % 3] = map.index_of(corners[i]);
+  surface.unit = raw.unit;
+  return surface;
+}
+
+}  // namespace
+
+std::vector<std::uint64_t>& members_of(std::vector<RawSet>& sets, const std::string& name) {
+  const auto it = std::find_if(sets.begin(), sets.end(), [&](const RawSet& s) { return s.name == name; });
+  if (it != sets.end()) return it->members;
+  return sets.emplace_back(RawSet{name, {}}).members;
+}
+
+MeshFile assemble(const RawMesh& raw, const std::filesystem::path& file, const Place& place_of_node,
+                  const Place& place_of_element) {
+  const std::size_t elements = raw.corners.size() / 4, triangles = raw.triangles.size() / 3;
+  const auto fail = [&](std::string what) { throw InvalidInput({std::move(what), file.string(), {}, {}, {}}); };
+  if (elements == 0 && triangles == 0) fail("holds no tetrahedra and no triangles");
+  if (raw.nodes.size() >= no_index || elements >= no_index / 4 || triangles >= no_index / 4)
+    fail("holds more than 2^30 elements");
+  if (!raw.mid_edges.empty() && raw.mid_edges.size() != 6 * elements)
+    fail("holds tetrahedra of first and of second order");
+
+  NodeMap map(raw, place_of_node);
+  MeshFile read;
+  const auto node = [&](std::uint64_t number) { return map.find(number); };
+  if (elements > 0) {
+    TetMesh& mesh = read.mesh.emplace<TetMesh>(tetrahedra_of(raw, map, place_of_element));
+    add_sets(raw, node, mesh, read.warnings);
+  } else {
+    NamedSurface& surface = read.mesh.emplace<NamedSurface>(surface_of(raw, map, place_of_element));
+    add_sets(raw, node, surface, read.warnings);
+  }
+  if (raw.passed_over > 0)
+    read.warnings.push_back(std::to_string(raw.passed_over) + " elements are neither tetrahedra nor triangles");
+  return read;
+}
+
+MeshFile assemble(const RawMesh& raw, const std::filesystem::path& file) {
+  const auto number = [](const std::vector<std::uint64_t>& numbers, std::size_t i) {
+    return std::to_string(i < numbers.size() ? numbers[i] : i + 1);
+  };
+  const std::vector<std::uint64_t>& elements = raw.corners.empty() ? raw.triangle_numbers : raw.tetrahedron_numbers;
+  return assemble(
+      raw, file, [&](std::size_t n) { return file.string() + ": node " + number(raw.node_numbers, n); },
+      [&](std::size_t e) { return file.string() + ": element " + number(elements, e); });
 }
 
 }  // namespace scan2fea

@@ -5,6 +5,7 @@
 
 #include <charconv>
 #include <concepts>
+#include <iterator>
 #include <ostream>
 #include <string>
 #include <string_view>
@@ -23,9 +24,15 @@ class TextOutput {
     buffer_.append(text);
     return *this;
   }
+  // As short as CalculiX wants it, see write_number.
   TextOutput& operator<<(double value) {
     char text[longest_number];
     return *this << std::string_view(text, write_number(text, value));
+  }
+  // The shortest form that reads back to the same bits, however long.
+  TextOutput& exact(double value) {
+    char text[32];
+    return *this << std::string_view(text, std::to_chars(text, std::end(text), value).ptr);
   }
   TextOutput& operator<<(std::integral auto value) {
     char text[24];

@@ -9,6 +9,7 @@
 // - Length over height is 5, where shear is 3.2 % of the deflection: bending alone would fail the test.
 // The deflection goes with the inverse square of the height (weight h, stiffness h^3), so 2 % of it is 1 % of the
 // height, 0.2 mm, or half a per cent of the length: a mesh that shrinks, rounds the ends away or swells does not pass.
+#include "export/formats.hpp"
 #include "export/inp.hpp"
 #include "preproc/mesh/write_surface.hpp"
 #include "tests/analytic_meshes.hpp"
@@ -57,7 +58,7 @@ TEST(Cantilever, OfANoisyScanBendsAsTimoshenkoSays) {
                                         (folder / "beam.inp").string() + "' --edge-length 2 --order 2 --unit mm");
   ASSERT_EQ(run.exit_code, 0) << run.standard_error;
 
-  const TetMesh mesh = read_inp(folder / "beam.inp");
+  const TetMesh mesh = read_volume(folder / "beam.inp");
   EXPECT_EQ(mesh.order(), 2);
   // The end faces are where the nodes are: noise and rounded edges keep them within a fraction of the mesh's edges.
   constexpr double at_the_end = 0.4;

@@ -386,7 +386,7 @@ TEST_F(Command, ConvertKeepsTheMesh) {
   EXPECT_TRUE(contents(path("part.msh")).starts_with("$MeshFormat\n2.2 0 8\n"));
   const auto report = nlohmann::json::parse(run_command("check '" + path("part.msh") + "' --json -").standard_output);
   EXPECT_EQ(report.at("volume_mesh").at("inverted").get<int>(), 0);
-  EXPECT_EQ(run_command("convert '" + scan + "' -o '" + path("sphere.inp") + "'").exit_code, 2)
+  EXPECT_EQ(run_command("convert '" + scan + "' -o '" + path("sphere.su2") + "'").exit_code, 2)
       << "a surface is no volume mesh";
 }
 

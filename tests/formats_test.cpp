@@ -11,11 +11,13 @@ namespace scan2fea {
 namespace {
 
 TEST(Formats, AreToldByTheExtensionInAnyCase) {
-  EXPECT_EQ(volume_format("a/part.inp"), VolumeFormat::inp);
-  EXPECT_EQ(volume_format("PART.VTU"), VolumeFormat::vtu);
-  EXPECT_EQ(volume_format("part.old.msh"), VolumeFormat::msh);
-  EXPECT_EQ(volume_format("part.stl"), std::nullopt);
-  EXPECT_EQ(volume_format("inp"), std::nullopt);
+  EXPECT_EQ(find_format("a/part.inp")->extension, ".inp");
+  EXPECT_EQ(find_format("PART.VTU")->extension, ".vtu");
+  EXPECT_EQ(find_format("part.old.msh")->extension, ".msh");
+  EXPECT_EQ(find_format("part.xyz"), nullptr);
+  EXPECT_EQ(find_format("inp"), nullptr);
+  EXPECT_FALSE(writes_volume("part.stl"));
+  EXPECT_TRUE(writes_surface("part.stl"));
 }
 
 TEST(Formats, AllCarryTheSameMesh) {
@@ -49,9 +51,9 @@ TEST(Formats, AFailureLeavesAnExistingFile) {
 TEST(Formats, WarnsOfElementsThatCalculixRefuses) {
   const TemporaryFolder folder;
   TetMesh mesh = analytic::tetrahedra_of_box({1, 1, 1}, {1, 1, 1}, 1);
-  EXPECT_TRUE(write_volume(mesh, folder / "good.inp").warnings.empty());
+  EXPECT_TRUE(write_volume(mesh, folder / "good.inp").empty());
   std::swap(mesh.tetrahedra[2][0], mesh.tetrahedra[2][1]);
-  const auto warnings = write_volume(mesh, folder / "inverted.inp").warnings;
+  const auto warnings = write_volume(mesh, folder / "inverted.inp");
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_THAT(warnings.front(), ::testing::HasSubstr("CalculiX will refuse element 3: Jacobian determinant -1 "));
 }

@@ -1,5 +1,6 @@
 #include "export/inp.hpp"
 
+#include "export/formats.hpp"
 #include "export/smallest_determinant.hpp"
 #include "preproc/mesh/error.hpp"
 #include "tests/error_from.hpp"
@@ -29,7 +30,7 @@ TEST_P(Inp, RoundTripsToTheBit) {
   TetMesh mesh = box();
   for (Vec3& p : mesh.nodes) p = p / 3 + Vec3(1e-7, 100, -0.3);  // digits in plenty, but no more than fit
   write_inp(mesh, folder_ / "box.inp");
-  const TetMesh read = read_inp(folder_ / "box.inp");
+  const TetMesh read = read_volume(folder_ / "box.inp");
   EXPECT_EQ(read.nodes, mesh.nodes);
   EXPECT_EQ(read.tetrahedra, mesh.tetrahedra);
   EXPECT_EQ(read.mid_edge_nodes, mesh.mid_edge_nodes);
@@ -98,7 +99,9 @@ TEST_P(Inp, NodesOfTheSurfaceAreThoseOnTheBox) {
 TEST_P(Inp, KeepsToTheWidthsThatCalculixReads) {
   TetMesh mesh = box();
   for (Vec3& p : mesh.nodes) p = (p - Vec3::Constant(0.77)) * 1.2345678901234567e-4;
-  write_inp(mesh, folder_ / "box.inp", {.unit = "mm", .provenance = std::string(500, 'x')});
+  FileOptions options;
+  options.provenance = std::string(500, 'x');
+  write_inp(mesh, folder_ / "box.inp", options);
   std::istringstream lines(contents(folder_ / "box.inp"));
   bool nodes = false;
   for (std::string line; std::getline(lines, line);) {
@@ -118,12 +121,15 @@ TEST_P(Inp, KeepsToTheWidthsThatCalculixReads) {
 
 TEST(InpHeader, NamesUnitAndBoxAndCannotBeBrokenOutOf) {
   const TemporaryFolder folder;
-  write_inp(analytic::tetrahedra_of_box({3, 2, 1}, {1, 1, 1}, 1), folder / "box.inp",
-            {.unit = "mm", .provenance = "scan.ply\n*NODE\n1, 0, 0, 0"});
+  TetMesh mesh = analytic::tetrahedra_of_box({3, 2, 1}, {1, 1, 1}, 1);
+  mesh.unit = "mm";
+  FileOptions options;
+  options.provenance = "scan.ply\n*NODE\n1, 0, 0, 0";
+  write_inp(mesh, folder / "box.inp", options);
   const std::string text = contents(folder / "box.inp");
   EXPECT_THAT(text, HasSubstr("\n** unit of length: mm\n"));
   EXPECT_THAT(text, HasSubstr("\n** bounding box, high: 3 2 1\n"));
-  EXPECT_EQ(read_inp(folder / "box.inp").nodes.size(), 8U);
+  EXPECT_EQ(read_volume(folder / "box.inp").nodes.size(), 8U);
 }
 
 TEST(InpReader, ReadsWhatOtherProgramsWrite) {
@@ -138,7 +144,7 @@ TEST(InpReader, ReadsWhatOtherProgramsWrite) {
              "*element,\r\n type=c3d4\r\n"
              " 12, 8, 70,\r\n 5, 900\r\n"
              "*STEP\r\n*STATIC\r\n*END STEP");
-  const TetMesh mesh = read_inp(folder / "other.inp");
+  const TetMesh mesh = read_volume(folder / "other.inp");
   ASSERT_EQ(mesh.tetrahedra.size(), 1U);
   EXPECT_EQ(mesh.nodes.size(), 4U);  // 77 is not used
   EXPECT_NEAR(total_volume(mesh), 2.5 / 6, 1e-15);
@@ -150,7 +156,7 @@ TEST(InpReader, SaysWhereAFileIsWrong) {
   const std::string nodes = "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n";
   const auto message = [&](const std::string& text) -> std::string {
     write_text(folder / "bad.inp", text);
-    return error_from<InvalidInput>([&] { read_inp(folder / "bad.inp"); }).what();
+    return error_from<InvalidInput>([&] { read_volume(folder / "bad.inp"); }).what();
   };
   EXPECT_THAT(message(""), HasSubstr("empty"));
   EXPECT_THAT(message("solid part\n"), HasSubstr("holds no tetrahedra"));
@@ -168,7 +174,7 @@ TEST(InpReader, SaysWhereAFileIsWrong) {
   EXPECT_THAT(message("*NODE\n1,0,nan,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n*ELEMENT, TYPE=C3D4\n1,1,2,3,4\n"),
               HasSubstr("bad.inp:2: coordinate is not a finite number"));
   EXPECT_THROW(read_inp(folder.path()), InvalidInput);
-  EXPECT_THROW(read_inp(folder / "missing.inp"), InvalidInput);
+  EXPECT_THROW(read_volume(folder / "missing.inp"), InvalidInput);
 }
 
 TEST(SmallestDeterminant, IsSixVolumesOfStraightTetrahedra) {

@@ -1,5 +1,6 @@
 #include "export/msh.hpp"
 
+#include "export/formats.hpp"
 #include "preproc/mesh/error.hpp"
 #include "tests/binary_msh.hpp"
 #include "tests/error_from.hpp"
@@ -26,6 +27,8 @@ void PrintTo(const Case& c, std::ostream* out) {
 class Msh : public testing::TestWithParam<Case> {
  protected:
   TetMesh box() const { return analytic::tetrahedra_of_box({3, 2, 1}, {3, 2, 2}, GetParam().order); }
+  void SetUp() override { options_.msh_version = GetParam().version; }
+  FileOptions options_;
   TemporaryFolder folder_;
 };
 INSTANTIATE_TEST_SUITE_P(VersionAndOrder, Msh,
@@ -35,8 +38,8 @@ INSTANTIATE_TEST_SUITE_P(VersionAndOrder, Msh,
 TEST_P(Msh, RoundTrips) {
   TetMesh mesh = box();
   for (Vec3& p : mesh.nodes) p = p / 7 - Vec3(100, 1e-3, 0.1);
-  write_msh(mesh, folder_ / "box.msh", {.version = GetParam().version});
-  const TetMesh read = read_msh(folder_ / "box.msh");
+  write_msh(mesh, folder_ / "box.msh", options_);
+  const TetMesh read = read_volume(folder_ / "box.msh");
   ASSERT_EQ(read.nodes.size(), mesh.nodes.size());
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
     EXPECT_LE((read.nodes[n] - mesh.nodes[n]).norm(), 1e-15 * mesh.nodes[n].norm());
@@ -45,7 +48,7 @@ TEST_P(Msh, RoundTrips) {
 }
 
 TEST_P(Msh, HoldsTheGroupsAndTheVersion) {
-  write_msh(box(), folder_ / "box.msh", {.version = GetParam().version});
+  write_msh(box(), folder_ / "box.msh", options_);
   const std::string text = contents(folder_ / "box.msh");
   EXPECT_THAT(text,
               HasSubstr(GetParam().version == MshVersion::v2_2 ? "$MeshFormat\n2.2 0 8\n" : "$MeshFormat\n4.1 0 8\n"));
@@ -53,15 +56,15 @@ TEST_P(Msh, HoldsTheGroupsAndTheVersion) {
 }
 
 TEST_P(Msh, IsTheSameFileEveryTime) {
-  write_msh(box(), folder_ / "a.msh", {.version = GetParam().version});
-  write_msh(box(), folder_ / "b.msh", {.version = GetParam().version});
+  write_msh(box(), folder_ / "a.msh", options_);
+  write_msh(box(), folder_ / "b.msh", options_);
   EXPECT_EQ(contents(folder_ / "a.msh"), contents(folder_ / "b.msh"));
 }
 
 TEST(MshWriter, TakesAnExtensionInUpperCase) {
   const TemporaryFolder folder;
   write_msh(analytic::tetrahedra_of_box({1, 1, 1}, {1, 1, 1}, 1), folder / "BOX.MSH");
-  EXPECT_EQ(read_msh(folder / "BOX.MSH").tetrahedra.size(), 6U);
+  EXPECT_EQ(read_volume(folder / "BOX.MSH").tetrahedra.size(), 6U);
 }
 
 TEST(MshReader, ReadsBinaryOfBothByteOrders) {
@@ -70,13 +73,13 @@ TEST(MshReader, ReadsBinaryOfBothByteOrders) {
     for (const std::endian order : {std::endian::little, std::endian::big}) {
       const std::string text = binary_mesh(version, order);
       write_text(folder / "binary.msh", text);
-      const TetMesh mesh = read_msh(folder / "binary.msh");
+      const TetMesh mesh = read_volume(folder / "binary.msh");
       EXPECT_EQ(mesh.nodes.size(), 4U);
       EXPECT_EQ(mesh.tetrahedra.size(), 1U);
       EXPECT_NEAR(total_volume(mesh), 1.0 / 6, 1e-15);
       for (std::size_t length = 1; length < text.size() - 1; ++length) {
         write_text(folder / "binary.msh", text.substr(0, length));
-        EXPECT_THROW(read_msh(folder / "binary.msh"), InvalidInput) << length;
+        EXPECT_THROW(read_volume(folder / "binary.msh"), InvalidInput) << length;
       }
     }
 }
@@ -85,13 +88,13 @@ TEST(MshReader, SaysWhereAFileIsWrong) {
   const TemporaryFolder folder;
   const auto message = [&](const std::string& text) -> std::string {
     write_text(folder / "bad.msh", text);
-    return error_from<InvalidInput>([&] { read_msh(folder / "bad.msh"); }).what();
+    return error_from<InvalidInput>([&] { read_volume(folder / "bad.msh"); }).what();
   };
   const std::string nodes =
       "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n$Elements\n1\n";
   const std::string end = "$EndElements\n";
   write_text(folder / "good.msh", nodes + "1 4 2 0 1 1 2 3 4\n" + end);
-  EXPECT_NO_THROW(read_msh(folder / "good.msh"));
+  EXPECT_NO_THROW(read_volume(folder / "good.msh"));
   EXPECT_THAT(message(nodes + "1 4 2 0 1 1 2 3 5\n" + end), HasSubstr("bad.msh: element 1: element uses node 5"));
   EXPECT_THAT(message(nodes + "1 2 2 0 1 1 2 3\n" + end), HasSubstr("holds no tetrahedra"));
   EXPECT_THAT(message(nodes + "1 5 2 0 1 1 2 3 4 1 2 3 4\n" + end),
@@ -102,7 +105,7 @@ TEST(MshReader, SaysWhereAFileIsWrong) {
   EXPECT_THAT(message("Point(1) = {0, 0, 0};\n"), HasSubstr("not a Gmsh mesh file"));
   EXPECT_THAT(message(""), HasSubstr("empty"));
   EXPECT_THROW(read_msh(folder.path()), InvalidInput);
-  EXPECT_THROW(read_msh(folder / "missing.msh"), InvalidInput);
+  EXPECT_THROW(read_volume(folder / "missing.msh"), InvalidInput);
 }
 
 }  // namespace

@@ -37,7 +37,10 @@ TEST_P(OtherReaders, FindTheSameMesh) {
   const auto& [c, order] = GetParam();
   const TetMesh mesh = analytic::tetrahedra_of_box({3, 2, 1}, {3, 2, 2}, order);
   const TemporaryFolder folder;
-  write_volume(mesh, folder / c.file, {.unit = "mm", .provenance = "a test", .msh_version = c.msh_version});
+  FileOptions options;
+  options.provenance = "a test";
+  options.msh_version = c.msh_version;
+  write_volume(mesh, folder / c.file, options);
 
   // Debian's own interpreter, which has Debian's packages; another one may come first on the path.
   const std::string command = "/usr/bin/python3 '" SCAN2FEA_TESTS_FOLDER "/read_volume_mesh.py' " + c.library + " '" +

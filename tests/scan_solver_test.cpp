@@ -1,4 +1,5 @@
 // The project's first promise: a real scan in, a mesh that a real solver solves out.
+#include "export/formats.hpp"
 #include "export/inp.hpp"
 #include "tests/calculix.hpp"
 #include "tests/run_command.hpp"
@@ -31,7 +32,7 @@ TEST(ScanSolver, ReactionsAreTheWeight) {
   EXPECT_EQ(figures["volume_mesh"]["inverted"].get<int>(), 0);
 
   // The camel stands on its feet: the lowest hundredth of its height, along y, is clamped.
-  const TetMesh mesh = read_inp(folder / "camel.inp");
+  const TetMesh mesh = read_volume(folder / "camel.inp");
   EXPECT_NEAR(static_cast<double>(mesh.boundary.size()), wanted_faces, 0.01 * wanted_faces);
   const BoundingBox box = bounding_box(mesh.nodes);
   std::vector<std::uint32_t> clamped;

@@ -1,5 +1,5 @@
-#include "export/vtu.hpp"
-
+#include "export/formats.hpp"
+#include "export/vtk.hpp"
 #include "preproc/mesh/error.hpp"
 #include "tests/structured_tets.hpp"
 #include "tests/temporary_folder.hpp"
@@ -20,8 +20,11 @@ INSTANTIATE_TEST_SUITE_P(Order, Vtu, testing::Values(1, 2));
 TEST_P(Vtu, RoundTripsToTheBit) {
   TetMesh mesh = analytic::tetrahedra_of_box({3, 2, 1}, {3, 2, 2}, GetParam());
   for (Vec3& p : mesh.nodes) p = p / 7 - Vec3(1e5, 1e-9, 0.1);
-  write_vtu(mesh, folder_ / "box.vtu", {.unit = "mm", .provenance = "a--b--->\n"});
-  const TetMesh read = read_vtu(folder_ / "box.vtu");
+  mesh.unit = "mm";
+  FileOptions options;
+  options.provenance = "a--b--->\n";
+  write_vtu(mesh, folder_ / "box.vtu", options);
+  const TetMesh read = read_volume(folder_ / "box.vtu");
   EXPECT_EQ(read.nodes, mesh.nodes);
   EXPECT_EQ(read.tetrahedra, mesh.tetrahedra);
   EXPECT_EQ(read.mid_edge_nodes, mesh.mid_edge_nodes);
@@ -57,7 +60,7 @@ const std::string connectivity_ascii = ascii + "0 1 2 3 0 1 2";
 std::string message(const std::filesystem::path& file, const std::string& text) {
   write_text(file, text);
   try {
-    const TetMesh mesh = read_vtu(file);
+    const TetMesh mesh = read_volume(file);
     EXPECT_EQ(mesh.tetrahedra.size(), 1U);
     EXPECT_NEAR(total_volume(mesh), 1.0 / 6, 1e-15);
   } catch (const InvalidInput& error) {
@@ -98,8 +101,8 @@ TEST(VtuReader, SaysWhatIsWrong) {
   const auto file = folder / "bad.vtu";
   const std::string good_offsets = ascii + "4 7", good_types = ascii + "10 5";
   EXPECT_THAT(message(file, "solid part"), HasSubstr("not a VTK XML file"));
-  EXPECT_THAT(message(file, "<VTKFile type='PolyData'>"), HasSubstr("PolyData"));
-  EXPECT_THAT(message(file, grid("compressor=\"vtkZLibDataCompressor\"", points_ascii, connectivity_ascii, good_offsets,
+  EXPECT_THAT(message(file, "<VTKFile type='ImageData'>"), HasSubstr("ImageData"));
+  EXPECT_THAT(message(file, grid("compressor=\"vtkLZMADataCompressor\"", points_ascii, connectivity_ascii, good_offsets,
                                  good_types)),
               HasSubstr("is compressed"));
   EXPECT_THAT(message(file, grid("", ascii + "0 0 0", connectivity_ascii, good_offsets, good_types)),
@@ -125,7 +128,7 @@ TEST(VtuReader, SaysWhatIsWrong) {
   for (std::size_t length = 1; length < whole.size() - std::string("\n</AppendedData>\n</VTKFile>\n").size();
        length += 7) {
     write_text(file, whole.substr(0, length));
-    EXPECT_THROW(read_vtu(file), InvalidInput) << length;
+    EXPECT_THROW(read_volume(file), InvalidInput) << length;
   }
 }
 

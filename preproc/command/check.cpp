@@ -5,7 +5,6 @@
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/error_text.hpp"
 #include "preproc/mesh/read_cloud.hpp"
-#include "preproc/mesh/read_surface.hpp"
 #include "preproc/surface/features/feature_file.hpp"
 #include "preproc/surface/repair/openings.hpp"
 
@@ -27,9 +26,11 @@ struct Loaded {
 };
 
 Loaded load(const std::filesystem::path& file) {
-  if (!volume_format(file)) return {.surface = read_surface(file), .volume_mesh = {}};
+  MeshFile read = read_mesh(file);
+  if (auto* surface = std::get_if<NamedSurface>(&read.mesh))
+    return {.surface = std::move(surface->mesh), .volume_mesh = {}};
   Loaded loaded;
-  loaded.volume_mesh = read_volume(file);
+  loaded.volume_mesh = std::get<TetMesh>(std::move(read.mesh));
   loaded.surface = boundary_surface(*loaded.volume_mesh);
   return loaded;
 }
@@ -37,7 +38,7 @@ Loaded load(const std::filesystem::path& file) {
 // A cloud tells distances of its points only.
 void load_reference(const std::filesystem::path& file, std::optional<SurfaceMesh>& surface,
                     std::optional<PointCloud>& cloud) {
-  if (volume_format(file)) {
+  if (find_format(file) != nullptr && find_format(file)->volume) {
     surface = load(file).surface;
     return;
   }

@@ -1,11 +1,14 @@
 #include "export/formats.hpp"
+#include "export/units.hpp"
 #include "preproc/command/flags.hpp"
 #include "preproc/command/output_files.hpp"
 #include "preproc/command/progress_display.hpp"
 #include "preproc/command/sub_commands.hpp"
 #include "preproc/mesh/error.hpp"
-#include "preproc/mesh/read_surface.hpp"
-#include "preproc/mesh/write_surface.hpp"
+#include "preproc/mesh/error_text.hpp"
+#include "preproc/mesh/length_unit.hpp"
+
+#include <cstdio>
 
 namespace scan2fea::command {
 namespace {
@@ -14,33 +17,66 @@ struct ConvertFlags {
   std::filesystem::path input;
   std::filesystem::path output;
   bool force = false;
-  std::optional<std::string> unit;
+  std::optional<std::string> unit, scale;
   MshVersion msh_version = MshVersion::v4_1;
+  bool ascii = false;
   bool quiet = false;
 };
 
+void settle_unit(MeshFile& mesh, const ConvertFlags& flags, ProgressDisplay& display) {
+  const std::string name = flags.input.string();
+  std::visit([&](auto& held) { held.unit = settled_unit(held.unit, flags.unit, name); }, mesh.mesh);
+  if (flags.scale) {
+    const UnitScale scale = parse_unit_scale(*flags.scale);
+    apply_scale(mesh, scale, name);
+    display.line("converted from " + scale.from + " to " + scale.to + ": coordinates times " +
+                 error_text(scale.factor()));
+  }
+  const std::string& unit = std::visit([](const auto& held) -> const std::string& { return held.unit; }, mesh.mesh);
+  if (!length_unit(unit)) return;
+  const auto& points =
+      mesh.is_volume() ? std::get<TetMesh>(mesh.mesh).nodes : std::get<NamedSurface>(mesh.mesh).mesh.vertices;
+  if (const auto doubt = implausible_size(bounding_box(points).diagonal(), unit))
+    std::fprintf(stderr, "scan2fea: warning: %s: %s\n", name.c_str(), doubt->c_str());
+}
+
+// What is lost is told even where nothing else is.
+void tell(const Notes& notes) {
+  for (const std::string& note : notes) std::fprintf(stderr, "scan2fea: warning: %s\n", note.c_str());
+}
+
 int convert(const ConvertFlags& flags) {
   require_writable({{flags.output}}, {flags.input}, flags.force);
-  ProgressDisplay display(flags.quiet);
-  const bool volume_in = volume_format(flags.input).has_value();
-  const bool volume_out = volume_format(flags.output).has_value();
-  if (volume_out && !volume_in)
-    throw WrongUsage({.what = "a surface holds no tetrahedra to write",
-                      .where = flags.input.string(),
-                      .value = {},
+  if (!writes_volume(flags.output) && !writes_surface(flags.output))
+    throw WrongUsage({.what = "unknown format of the output",
+                      .where = flags.output.string(),
+                      .value = flags.output.extension().string(),
                       .limit = {},
-                      .advice = "scan2fea tetrahedralize, or scan2fea run"});
-  if (volume_in && volume_out) {
-    const VolumeFileOptions options{.unit = flags.unit.value_or(""),
-                                    .provenance = flags.input.filename().string(),
-                                    .msh_version = flags.msh_version};
-    for (const std::string& warning : write_volume(read_volume(flags.input), flags.output, options).warnings)
-      display.line("warning: " + warning);
-  } else if (volume_in) {
-    write_surface(boundary_surface(read_volume(flags.input)), flags.output);
-    display.line("the boundary was written; " + flags.output.string() + " holds no tetrahedra");
+                      .advice = known_volume_formats() + ", " + known_surface_formats_to_write()});
+  ProgressDisplay display(flags.quiet);
+  MeshFile read = read_mesh(flags.input);
+  for (const std::string& warning : read.warnings) tell({flags.input.string() + ": " + warning});
+  settle_unit(read, flags, display);
+  const FileOptions options{.provenance = flags.input.filename().string(),
+                            .msh_version = flags.msh_version,
+                            .fields = {},
+                            .ascii = flags.ascii};
+  if (const auto* surface = std::get_if<NamedSurface>(&read.mesh)) {
+    if (!writes_surface(flags.output))
+      throw WrongUsage({.what = "a surface holds no tetrahedra to write",
+                        .where = flags.input.string(),
+                        .value = {},
+                        .limit = {},
+                        .advice = "scan2fea tetrahedralize, or scan2fea run"});
+    tell(write_surface(*surface, flags.output, options));
+  } else if (const auto& mesh = std::get<TetMesh>(read.mesh); writes_volume(flags.output)) {
+    tell(write_volume(mesh, flags.output, options));
   } else {
-    write_surface(read_surface(flags.input), flags.output);
+    display.line("the boundary was written; " + flags.output.string() + " holds no tetrahedra");
+    Notes notes;
+    const NamedSurface boundary = named_boundary(mesh, notes);
+    tell(notes);
+    tell(write_surface(boundary, flags.output, options));
   }
   return 0;
 }
@@ -54,9 +90,9 @@ SubCommand add_convert(CLI::App& root) {
   app->add_option("input", flags->input, "What to read")->required()->type_name("FILE");
   add_output_flag(*app, flags->output);
   add_force_flag(*app, flags->force);
-  app->add_option("--unit", flags->unit, "Length unit, recorded in what is written")
-      ->check(CLI::IsMember({"um", "mm", "cm", "m", "in", "ft"}))
-      ->type_name("UNIT");
+  add_unit_flag(*app, flags->unit);
+  app->add_option("--scale", flags->scale, "Convert from one unit to another, e.g. mm:m")->type_name("FROM:TO");
+  app->add_flag("--ascii", flags->ascii, "STL and PLY as text");
   add_msh_version_flag(*app, flags->msh_version);
   app->add_flag("--quiet", flags->quiet, "No messages but errors");
   return {app, [flags] { return convert(*flags); }};

@@ -1,5 +1,7 @@
 #include "preproc/command/flags.hpp"
 
+#include "preproc/mesh/length_unit.hpp"
+
 #include <CLI/Validators.hpp>
 
 #include <algorithm>
@@ -91,11 +93,20 @@ TargetSize SizeFlags::target() const {
       .unit = deviation->relative ? LargestDeviation::Unit::of_diagonal : LargestDeviation::Unit::model};
 }
 
+void add_unit_flag(CLI::App& command, std::optional<std::string>& unit) {
+  const auto short_name = [](std::string& text) {
+    const std::optional<std::string> known = length_unit(text);
+    if (known) text = *known;
+    return known ? std::string() : "'" + text + "' is none of " + std::string(known_length_units);
+  };
+  command.add_option("--unit", unit, "Length unit of the input, recorded in what is written")
+      ->transform(CLI::Validator(short_name, "UNIT"))
+      ->type_name("UNIT");
+}
+
 void add_common_flags(CLI::App& command, CommonFlags& flags) {
   command.add_option("input", flags.input, "What to read")->required()->type_name("FILE");
-  command.add_option("--unit", flags.unit, "Length unit of the input, recorded in what is written")
-      ->check(CLI::IsMember({"um", "mm", "cm", "m", "in", "ft"}))
-      ->type_name("UNIT");
+  add_unit_flag(command, flags.unit);
   command.add_option("--json", flags.json, "Write all figures as JSON (- for stdout)")->type_name("FILE");
   command.add_option("--report", flags.report, "Write the quality report into this folder")->type_name("DIR");
   command

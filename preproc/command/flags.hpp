@@ -55,6 +55,7 @@ struct FeatureFileFlags {
   std::optional<std::filesystem::path> read;
 };
 
+void add_unit_flag(CLI::App& command, std::optional<std::string>& unit);  // its short name, whatever the user writes
 void add_common_flags(CLI::App& command, CommonFlags& flags);
 void add_output_flag(CLI::App& command, std::filesystem::path& output);
 void add_time_limit_flag(CLI::App& command, std::optional<double>& seconds);

@@ -39,14 +39,14 @@ PipelineResult run_naming_input(Scan& scan, const MakeMeshJob& job, const Progre
 
 void require_known_format(const MakeMeshJob& job) {
   const std::filesystem::path& output = job.output;
-  const bool known = job.pipeline.tetrahedralize ? volume_format(output).has_value() : is_surface_file(output);
+  const bool known = job.pipeline.tetrahedralize ? writes_volume(output) : writes_surface(output);
   if (!known)
     throw WrongUsage(
         {.what = "unknown format of the output",
          .where = output.string(),
          .value = output.extension().string(),
          .limit = {},
-         .advice = std::string(job.pipeline.tetrahedralize ? known_volume_formats() : known_surface_formats())});
+         .advice = job.pipeline.tetrahedralize ? known_volume_formats() : known_surface_formats_to_write()});
 }
 
 // What remains of the time limit is for measuring and writing, which take longer the more was made. What does not come
@@ -179,14 +179,18 @@ int make_mesh(MakeMeshJob job) {
     }
   }
   if (job.features.write) outputs.add(*job.features.write, text_of(result.features));
+  const FileOptions options{
+      .provenance = job.common.input.filename().string(), .msh_version = job.msh_version, .fields = {}, .ascii = false};
   if (result.volume_mesh) {
-    const VolumeFileOptions options{.unit = job.common.unit.value_or(""),
-                                    .provenance = job.common.input.filename().string(),
-                                    .msh_version = job.msh_version};
-    for (const std::string& warning : write_volume(*result.volume_mesh, job.output, options).warnings)
-      display.line("warning: " + warning);
-  } else {
+    TetMesh mesh = *result.volume_mesh;
+    mesh.unit = job.common.unit.value_or("");
+    for (const std::string& note : write_volume(mesh, job.output, options)) display.line("warning: " + note);
+  } else if (is_surface_file(job.output)) {
     write_surface(result.surface, job.output, result.measured_vertices);
+  } else {
+    write_surface(
+        NamedSurface{.mesh = result.surface, .node_sets = {}, .face_sets = {}, .unit = job.common.unit.value_or("")},
+        job.output, options);
   }
   outputs.commit();
   ends_by_itself_now();

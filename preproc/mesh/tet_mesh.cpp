@@ -14,19 +14,26 @@ struct Face {
 
 }  // namespace
 
+Triangle boundary_mid_edge_nodes(const TetMesh& mesh, BoundaryFace f) {
+  const auto& [a, b, c] = tetrahedron_faces[f.face];
+  const std::array<std::array<int, 2>, 3> sides{{{a, c}, {c, b}, {b, a}}};  // boundary_triangle is a, c, b
+  Triangle nodes{};
+  for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t e = 0; e < tetrahedron_edges.size(); ++e) {
+      const auto& [p, q] = tetrahedron_edges[e];
+      if ((p == sides[k][0] && q == sides[k][1]) || (q == sides[k][0] && p == sides[k][1]))
+        nodes[k] = mesh.mid_edge_nodes[f.tetrahedron][e];
+    }
+  return nodes;
+}
+
 double face_area(const TetMesh& mesh, BoundaryFace f) {
   const Triangle corners = boundary_triangle(mesh, f);
   std::array<Vec3, 6> x;  // corners, then the middles of 12, 23, 31
   for (std::size_t k = 0; k < 3; ++k) x[k] = mesh.nodes[corners[k]];
   if (mesh.order() == 1) return (x[1] - x[0]).cross(x[2] - x[0]).norm() / 2;
-  const Tetrahedron& tet = mesh.tetrahedra[f.tetrahedron];
-  for (std::size_t e = 0; e < tetrahedron_edges.size(); ++e) {
-    const std::uint32_t a = tet[static_cast<std::size_t>(tetrahedron_edges[e][0])],
-                        b = tet[static_cast<std::size_t>(tetrahedron_edges[e][1])];
-    for (std::size_t k = 0; k < 3; ++k)
-      if (std::minmax(a, b) == std::minmax(corners[k], corners[(k + 1) % 3]))
-        x[3 + k] = mesh.nodes[mesh.mid_edge_nodes[f.tetrahedron][e]];
-  }
+  const Triangle middles = boundary_mid_edge_nodes(mesh, f);
+  for (std::size_t k = 0; k < 3; ++k) x[3 + k] = mesh.nodes[middles[k]];
   // Radon's rule: the centre, and three points on each of two triangles.
   const double root = std::sqrt(15.0), near = (6 - root) / 21, far = (6 + root) / 21;
   const auto at = [&](double u, double v) {

@@ -52,6 +52,9 @@ inline Triangle boundary_triangle(const TetMesh& mesh, BoundaryFace f) {
           tet[static_cast<std::size_t>(local[1])]};
 }
 
+// The nodes in the middle of the edges of `boundary_triangle`: 12, 23, 31. Precondition: the mesh is of second order.
+Triangle boundary_mid_edge_nodes(const TetMesh& mesh, BoundaryFace f);
+
 // Of the face as it is: of second order curved, by a rule of degree five, exact to about the fourth power of the bend.
 double face_area(const TetMesh& mesh, BoundaryFace f);
 

@@ -1,7 +1,7 @@
 // write_fuzz_seeds FOLDER: a few first inputs for each fuzz target, in FOLDER/TARGET. Binary files come from our own
 // writers; texts show what those do not write.
 #include "export/inp.hpp"
-#include "export/vtu.hpp"
+#include "export/vtk.hpp"
 #include "preproc/mesh/write_surface.hpp"
 #include "tests/analytic_meshes.hpp"
 #include "tests/binary_msh.hpp"

@@ -18,7 +18,7 @@ macro(run)
   endif()
 endmacro()
 
-# A mesh by TetGen's worker, a file by Gmsh's module.
+# A mesh by TetGen's worker.
 function(expect_meshes program)
   foreach(mesh part.inp part.msh)
     file(REMOVE ${FOLDER}/${mesh})

@@ -1,5 +1,6 @@
-#include "export/vtu_xml.hpp"
+#include "export/vtk_xml.hpp"
 
+#include "export/compressed_blocks.hpp"
 #include "preproc/mesh/byte_order.hpp"
 
 #include <fast_float/fast_float.h>
@@ -8,7 +9,7 @@
 #include <charconv>
 #include <stdexcept>
 
-namespace scan2fea::vtu {
+namespace scan2fea::vtk_xml {
 namespace {
 
 bool is_space(char c) {
@@ -60,23 +61,66 @@ std::uint64_t load_header(std::string_view bytes, const Storage& storage) {
                            : load<std::uint32_t>(bytes.data(), storage.byte_order);
 }
 
+// Text that holds an array, from where its bytes start.
+struct Encoded {
+  std::string_view text;
+  bool base64;
+
+  // The first bytes; fewer where there are no more.
+  std::string first(std::size_t wanted) const {
+    return base64 ? decode_base64(text, wanted) : std::string(text.substr(0, wanted));
+  }
+  // What follows so many bytes that were encoded by themselves.
+  Encoded behind(std::size_t bytes) const {
+    if (!base64) return {text.substr(std::min(bytes, text.size())), false};
+    std::size_t left = (bytes + 2) / 3 * 4, i = 0;
+    for (; i < text.size() && left > 0; ++i)
+      if (!is_space(text[i])) --left;
+    return {text.substr(i), true};
+  }
+};
+
+Encoded encoded(const DataArray& array, const Storage& storage) {
+  if (array.tag.attribute("format") != "appended") return {array.content, true};
+  const std::string offset_text = array.tag.attribute("offset");
+  std::uint64_t offset = 0;
+  const auto result = std::from_chars(offset_text.data(), offset_text.data() + offset_text.size(), offset);
+  if (result.ec != std::errc() || offset > storage.appended.size()) throw std::runtime_error("has a wrong offset");
+  return {storage.appended.substr(offset), storage.appended_base64};
+}
+
+// A header of the number of blocks, their size, that of the last one (0: as the others), and the compressed size of
+// each; then the blocks.
+std::string compressed_bytes(const Encoded& encoded, const Storage& storage) {
+  const std::size_t word = storage.header_64 ? 8 : 4;
+  const auto entry = [&](const std::string& header, std::size_t i) {
+    return load_header(std::string_view(header).substr(std::min(i * word, header.size())), storage);
+  };
+  const std::uint64_t blocks = entry(encoded.first(word), 0);
+  if (blocks == 0) return {};
+  if (blocks > encoded.text.size() / word) throw std::runtime_error("is truncated");
+  const std::string header = encoded.first((3 + blocks) * word);
+  BlockSizes sizes{.block = entry(header, 1), .last = entry(header, 2), .compressed = {}};
+  std::uint64_t total = 0;
+  for (std::uint64_t b = 0; b < blocks; ++b) {
+    sizes.compressed.push_back(entry(header, 3 + b));
+    if (sizes.compressed.back() > encoded.text.size()) throw std::runtime_error("is truncated");
+    total += sizes.compressed.back();
+  }
+  if (total > encoded.text.size()) throw std::runtime_error("is truncated");
+  const std::string bytes = encoded.behind((3 + blocks) * word).first(total);
+  if (bytes.size() < total) throw std::runtime_error("is truncated");
+  return storage.compressor == Compressor::zlib ? inflate_blocks(bytes, sizes) : expand_lz4_blocks(bytes, sizes);
+}
+
 // The bytes of a binary or appended array.
 std::string array_bytes(const DataArray& array, const Storage& storage) {
-  std::string_view text = array.content;
-  bool base64 = true;
-  if (array.tag.attribute("format") == "appended") {
-    const std::string offset_text = array.tag.attribute("offset");
-    std::uint64_t offset = 0;
-    const auto result = std::from_chars(offset_text.data(), offset_text.data() + offset_text.size(), offset);
-    if (result.ec != std::errc() || offset > storage.appended.size()) throw std::runtime_error("has a wrong offset");
-    text = storage.appended.substr(offset);
-    base64 = storage.appended_base64;
-  }
+  const Encoded source = encoded(array, storage);
+  if (storage.compressor != Compressor::none) return compressed_bytes(source, storage);
   const std::size_t header = storage.header_64 ? 8 : 4;
-  const std::uint64_t size =
-      load_header(base64 ? decode_base64(text, header) : std::string(text.substr(0, header)), storage);
-  if (size > text.size()) throw std::runtime_error("is truncated");  // base64 is longer than its bytes
-  const std::string bytes = base64 ? decode_base64(text, header + size) : std::string(text.substr(0, header + size));
+  const std::uint64_t size = load_header(source.first(header), storage);
+  if (size > source.text.size()) throw std::runtime_error("is truncated");  // base64 is longer than its bytes
+  const std::string bytes = source.first(header + size);
   if (bytes.size() < header + size) throw std::runtime_error("is truncated");
   return bytes.substr(header);
 }
@@ -196,4 +240,4 @@ std::vector<std::uint64_t> read_integers(const DataArray& array, const Storage& 
   return read<std::uint64_t>(array, storage);
 }
 
-}  // namespace scan2fea::vtu
+}  // namespace scan2fea::vtk_xml

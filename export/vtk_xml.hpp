@@ -1,4 +1,4 @@
-// The part of VTK's XML format that the VTU reader needs: tags, and data arrays in all encodings but compressed ones.
+// The part of VTK's XML format that its reader needs: tags, and data arrays in all encodings, also compressed ones.
 #pragma once
 
 #include <bit>
@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace scan2fea::vtu {
+namespace scan2fea::vtk_xml {
 
 struct Tag {
   std::string name;                               // "DataArray", "/Points"
@@ -23,10 +23,13 @@ struct Tag {
 // where the rest is not XML.
 std::optional<Tag> next_tag(std::string_view text, std::size_t position);
 
+enum class Compressor { none, zlib, lz4 };
+
 // How the arrays of a file are stored, from its VTKFile and AppendedData tags.
 struct Storage {
   std::endian byte_order = std::endian::little;
   bool header_64 = false;
+  Compressor compressor = Compressor::none;
   bool appended_base64 = false;
   std::string_view appended;  // behind the underscore
 };
@@ -40,4 +43,4 @@ struct DataArray {
 std::vector<double> read_reals(const DataArray& array, const Storage& storage);
 std::vector<std::uint64_t> read_integers(const DataArray& array, const Storage& storage);
 
-}  // namespace scan2fea::vtu
+}  // namespace scan2fea::vtk_xml

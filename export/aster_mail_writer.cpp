@@ -1,0 +1,139 @@
+#include "export/aster_mail.hpp"
+#include "export/set_names.hpp"
+#include "export/text_output.hpp"
+#include "export/unit_comment.hpp"
+#include "preproc/mesh/output_file.hpp"
+
+#include <charconv>
+#include <span>
+
+namespace scan2fea {
+namespace {
+
+// Words of a section, in lines of at most 80 characters.
+class Words {
+ public:
+  explicit Words(TextOutput& out) : out_(out) {}
+
+  Words& operator<<(const std::string& word) {
+    constexpr std::size_t longest = 80;
+    if (column_ + 1 + word.size() > longest) end_line();
+    out_ << " " << word;
+    column_ += 1 + word.size();
+    return *this;
+  }
+  void end_line() {
+    if (column_ > 0) out_ << "\n";
+    column_ = 0;
+  }
+
+ private:
+  TextOutput& out_;
+  std::size_t column_ = 0;
+};
+
+std::string node(std::uint32_t index) {
+  return "N" + std::to_string(std::uint64_t{index} + 1);
+}
+
+std::string element(std::uint64_t number) {
+  return "M" + std::to_string(number);
+}
+
+std::string exact(double value) {
+  char text[32];
+  return {text, std::to_chars(text, std::end(text), value).ptr};
+}
+
+void write_nodes(TextOutput& out, const std::vector<Vec3>& nodes) {
+  out << "COOR_3D\n";
+  Words words(out);
+  for (std::uint32_t n = 0; n < nodes.size(); ++n) {
+    words << node(n) << exact(nodes[n].x()) << exact(nodes[n].y()) << exact(nodes[n].z());
+    words.end_line();
+  }
+  out << "FINSF\n";
+}
+
+void write_tetrahedra(TextOutput& out, const TetMesh& mesh) {
+  out << (mesh.order() == 2 ? "TETRA10\n" : "TETRA4\n");
+  Words words(out);
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+    words << element(t + 1);
+    for (const std::uint32_t n : mesh.tetrahedra[t]) words << node(n);
+    if (mesh.order() == 2)
+      for (const std::uint32_t n : mesh.mid_edge_nodes[t]) words << node(n);
+    words.end_line();
+  }
+  out << "FINSF\n";
+}
+
+// Those that are in sets; numbers behind the tetrahedra's.
+std::vector<std::uint64_t> write_triangles(TextOutput& out, const TetMesh& mesh) {
+  std::vector<std::uint64_t> numbers(mesh.boundary.size(), 0);
+  bool any = false;
+  for (const NamedSet& set : mesh.face_sets)
+    for (const std::uint32_t f : set.members) {
+      numbers[f] = 1;
+      any = true;
+    }
+  if (!any) return numbers;
+  out << (mesh.order() == 2 ? "TRIA6\n" : "TRIA3\n");
+  Words words(out);
+  std::uint64_t number = mesh.tetrahedra.size();
+  for (std::size_t f = 0; f < numbers.size(); ++f) {
+    if (numbers[f] == 0) continue;
+    numbers[f] = ++number;
+    words << element(number);
+    for (const std::uint32_t n : boundary_triangle(mesh, mesh.boundary[f])) words << node(n);
+    if (mesh.order() == 2)
+      for (const std::uint32_t n : boundary_mid_edge_nodes(mesh, mesh.boundary[f])) words << node(n);
+    words.end_line();
+  }
+  out << "FINSF\n";
+  return numbers;
+}
+
+template <class Name>
+void write_groups(TextOutput& out, const char* keyword, std::span<const NamedSet> sets,
+                  std::span<const std::string> names, const Name& name_of) {
+  for (std::size_t s = 0; s < sets.size(); ++s) {
+    if (sets[s].members.empty()) continue;
+    out << keyword << " NOM = " << names[s] << "\n";
+    Words words(out);
+    for (const std::uint32_t m : sets[s].members) words << name_of(m);
+    words.end_line();
+    out << "FINSF\n";
+  }
+}
+
+}  // namespace
+
+Notes write_mail(const TetMesh& mesh, const std::filesystem::path& file, const FileOptions& options) {
+  Notes notes;
+  const NameRules rules{.longest = 24, .upper_case = false, .allowed = "_", .starts_with_letter = true};
+  std::vector<NamedSet> of_elements = mesh.element_sets;  // and of faces: groups of elements, all of them
+  of_elements.insert(of_elements.end(), mesh.face_sets.begin(), mesh.face_sets.end());
+  const std::vector<std::string> elements = names_for(of_elements, rules, {}, notes);
+  const std::vector<std::string> nodes = names_for(mesh.node_sets, rules, {}, notes);
+  OutputFile output(file);
+  {
+    TextOutput out(output.stream());
+    out << "% written by scan2fea\n";
+    if (!options.provenance.empty()) out << "% " << one_line(options.provenance).substr(0, 76) << "\n";
+    if (!mesh.unit.empty()) out << "% " << unit_comment(mesh.unit) << "\n";
+    write_nodes(out, mesh.nodes);
+    write_tetrahedra(out, mesh);
+    const std::vector<std::uint64_t> triangles = write_triangles(out, mesh);
+    const std::span<const std::string> names(elements);
+    write_groups(out, "GROUP_MA", mesh.element_sets, names, [](std::uint32_t t) { return element(t + 1UL); });
+    write_groups(out, "GROUP_MA", mesh.face_sets, names.subspan(mesh.element_sets.size()),
+                 [&](std::uint32_t f) { return element(triangles[f]); });
+    write_groups(out, "GROUP_NO", mesh.node_sets, nodes, node);
+    out << "FIN\n";
+  }
+  output.commit();
+  return notes;
+}
+
+}  // namespace scan2fea

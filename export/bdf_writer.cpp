@@ -1,0 +1,190 @@
+#include "export/bdf.hpp"
+#include "export/number_text.hpp"
+#include "export/set_names.hpp"
+#include "export/text_output.hpp"
+#include "export/unit_comment.hpp"
+#include "preproc/mesh/output_file.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <span>
+
+namespace scan2fea {
+namespace {
+
+constexpr NameRules rules{.longest = 60, .upper_case = false, .allowed = "_-.", .starts_with_letter = true};
+
+// Comments end at column 80 for some readers.
+void write_comment(TextOutput& out, std::string_view text) {
+  const std::string line = one_line(text);
+  for (std::size_t i = 0; i < line.size(); i += 78) out << "$ " << std::string_view(line).substr(i, 78) << "\n";
+}
+
+// Cards in fields of eight characters, continued after eight of them.
+class Card {
+ public:
+  Card(TextOutput& out, std::string_view name) : out_(out) { write(name); }
+  ~Card() { out_ << "\n"; }
+  Card(const Card&) = delete;
+  Card& operator=(const Card&) = delete;
+
+  Card& operator<<(std::uint64_t number) { return *this << std::to_string(number); }
+  Card& operator<<(const std::string& text) {
+    constexpr int fields_per_line = 8;
+    if (fields_ == fields_per_line) {
+      out_ << "\n";
+      write("+");
+      fields_ = 0;
+    }
+    ++fields_;
+    write(text);
+    return *this;
+  }
+
+ private:
+  void write(std::string_view text) {
+    constexpr std::string_view blanks = "        ";
+    out_ << text;
+    if (text.size() < blanks.size()) out_ << blanks.substr(text.size());
+  }
+
+  TextOutput& out_;
+  int fields_ = 0;
+};
+
+// Of the card's name and two or three fields of sixteen.
+void write_grid(TextOutput& out, std::size_t number, const Vec3& p) {
+  const auto wide = [&](std::string text) {
+    text.resize(16, ' ');
+    out << text;
+  };
+  const auto real = [](double value) {
+    char text[nastran_width];
+    return std::string(text, write_nastran_number(text, value));
+  };
+  out << "GRID*   ";
+  wide(std::to_string(number));
+  wide("");
+  wide(real(p.x()));
+  wide(real(p.y()));
+  out << "\n*       " << real(p.z()) << "\n";
+}
+
+void write_header(TextOutput& out, const std::vector<Vec3>& nodes, const std::string& unit,
+                  const FileOptions& options) {
+  write_comment(out, "written by scan2fea for Nastran");
+  if (!options.provenance.empty()) write_comment(out, options.provenance);
+  if (!unit.empty()) write_comment(out, unit_comment(unit));
+  out << "BEGIN BULK\n";
+  for (std::size_t n = 0; n < nodes.size(); ++n) write_grid(out, n + 1, nodes[n]);
+}
+
+void write_properties(TextOutput& out, std::string_view card, const SetParts& parts,
+                      std::span<const std::string> names) {
+  for (std::size_t part = 0; part < parts.of.size(); ++part) {
+    if (std::find(parts.part.begin(), parts.part.end(), part) == parts.part.end()) continue;
+    if (part > 0)
+      write_comment(out, std::string(card) + " " + std::to_string(part + 1) + " is " + part_name(parts, part, names));
+    if (card == "PSHELL")
+      Card(out, card) << part + 1 << std::uint64_t{1} << std::string("1.");
+    else
+      Card(out, card) << part + 1 << std::uint64_t{1};
+  }
+}
+
+void write_nodes_of_set(TextOutput& out, std::size_t number, std::span<const std::uint32_t> nodes) {
+  if (nodes.empty()) return;
+  Card set(out, "SET1");
+  set << number;
+  for (const std::uint32_t n : nodes) set << std::uint64_t{n} + 1;
+}
+
+void write_clamp(TextOutput& out, std::size_t number, std::span<const std::uint32_t> nodes) {
+  if (nodes.empty()) return;
+  Card clamp(out, "SPC1");
+  clamp << number << std::string("123");
+  for (const std::uint32_t n : nodes) clamp << std::uint64_t{n} + 1;
+}
+
+void write_node_sets(TextOutput& out, std::span<const NamedSet> sets, std::span<const std::string> names,
+                     std::size_t first) {
+  for (std::size_t s = 0; s < sets.size(); ++s) {
+    write_comment(out, "SET1 " + std::to_string(first + s) + " is " + names[s]);
+    write_nodes_of_set(out, first + s, sets[s].members);
+    write_clamp(out, first + s, sets[s].members);
+  }
+}
+
+// PLOAD4 tells the face of a CTETRA by one of its corners and the corner opposite to it.
+void write_face_sets(TextOutput& out, const TetMesh& mesh, std::span<const std::string> names, std::size_t first) {
+  for (std::size_t s = 0; s < mesh.face_sets.size(); ++s) {
+    const NamedSet& set = mesh.face_sets[s];
+    const std::size_t number = first + s;
+    write_comment(out, "PLOAD4 " + std::to_string(number) + " is " + names[s]);
+    for (const std::uint32_t i : set.members) {
+      const BoundaryFace f = mesh.boundary[i];
+      const Tetrahedron& corners = mesh.tetrahedra[f.tetrahedron];
+      const auto& face = tetrahedron_faces[f.face];
+      const auto opposite = static_cast<std::size_t>(6 - face[0] - face[1] - face[2]);  // corners are 0 to 3
+      Card load(out, "PLOAD4");
+      load << number << std::uint64_t{f.tetrahedron} + 1 << std::string("1.") << std::string() << std::string()
+           << std::string() << std::uint64_t{corners[static_cast<std::size_t>(face[0])]} + 1
+           << std::uint64_t{corners[opposite]} + 1;
+    }
+    const std::vector<std::uint32_t> nodes = nodes_of_faces(mesh, set.members);
+    write_nodes_of_set(out, number, nodes);
+    write_clamp(out, number, nodes);
+  }
+}
+
+}  // namespace
+
+Notes write_bdf(const TetMesh& mesh, const std::filesystem::path& file, const FileOptions& options) {
+  Notes notes;
+  const std::vector<std::string> elements = names_for(mesh.element_sets, rules, {}, notes);
+  const std::vector<std::string> faces = names_for(mesh.face_sets, rules, {}, notes);
+  const std::vector<std::string> nodes = names_for(mesh.node_sets, rules, {}, notes);
+  const SetParts parts = set_parts(mesh.element_sets, mesh.tetrahedra.size());
+  OutputFile output(file);
+  {
+    TextOutput out(output.stream());
+    write_header(out, mesh.nodes, mesh.unit, options);
+    for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+      Card element(out, "CTETRA");
+      element << t + 1 << std::uint64_t{parts.part[t]} + 1;
+      for (const std::uint32_t n : mesh.tetrahedra[t]) element << std::uint64_t{n} + 1;
+      if (mesh.order() == 2)
+        for (const std::uint32_t n : mesh.mid_edge_nodes[t]) element << std::uint64_t{n} + 1;
+    }
+    write_properties(out, "PSOLID", parts, elements);
+    write_node_sets(out, mesh.node_sets, nodes, 1);
+    write_face_sets(out, mesh, faces, 1 + mesh.node_sets.size());
+    out << "ENDDATA\n";
+  }
+  output.commit();
+  return notes;
+}
+
+Notes write_bdf(const NamedSurface& surface, const std::filesystem::path& file, const FileOptions& options) {
+  Notes notes;
+  const std::vector<std::string> faces = names_for(surface.face_sets, rules, {}, notes);
+  const std::vector<std::string> nodes = names_for(surface.node_sets, rules, {}, notes);
+  const SetParts parts = set_parts(surface.face_sets, surface.mesh.triangles.size());
+  OutputFile output(file);
+  {
+    TextOutput out(output.stream());
+    write_header(out, surface.mesh.vertices, surface.unit, options);
+    for (std::size_t t = 0; t < surface.mesh.triangles.size(); ++t) {
+      Card element(out, "CTRIA3");
+      element << t + 1 << std::uint64_t{parts.part[t]} + 1;
+      for (const std::uint32_t v : surface.mesh.triangles[t]) element << std::uint64_t{v} + 1;
+    }
+    write_properties(out, "PSHELL", parts, faces);
+    write_node_sets(out, surface.node_sets, nodes, 1);
+    out << "ENDDATA\n";
+  }
+  output.commit();
+  return notes;
+}
+
+}  // namespace scan2fea

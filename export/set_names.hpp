@@ -1,0 +1,43 @@
+// Names of sets as formats allow them, and the parts into which overlapping sets cut a mesh.
+#pragma once
+
+#include "preproc/mesh/named_sets.hpp"
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace scan2fea {
+
+// NALL, EALL and SALL, which writers make of the mesh itself, and what INP makes SALL of; upper or lower case.
+bool is_reserved_set(std::string_view name);
+
+struct NameRules {
+  std::size_t longest = 80;
+  bool upper_case = false;
+  std::string_view allowed = "_-.+";  // besides letters and digits; what is not becomes `_`
+  bool starts_with_letter = true;
+};
+
+// One per set and in their order: no two alike, whatever the case, nor one like those that are `taken`. Each change
+// but that of case is told.
+std::vector<std::string> names_for(std::span<const NamedSet> sets, const NameRules& rules,
+                                   std::span<const std::string> taken, std::vector<std::string>& warnings);
+
+// Members that are in the same sets are one part. Formats that give each element one number give that of its part.
+struct SetParts {
+  std::vector<std::uint32_t> part;             // per member; 0 is the part that is in no set
+  std::vector<std::vector<std::uint32_t>> of;  // per part the indices of its sets, ascending; parts in order of these
+};
+SetParts set_parts(std::span<const NamedSet> sets, std::size_t members);
+
+// "A+B" for a part that is in both, as formats without another way to say so have it.
+std::string part_name(const SetParts& parts, std::size_t part, std::span<const std::string> names);
+inline constexpr char part_name_joint = '+';
+
+// The names of the sets that `part_name` joined.
+std::vector<std::string> split_part_name(std::string_view name);
+
+}  // namespace scan2fea

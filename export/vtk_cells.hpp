@@ -1,0 +1,33 @@
+// What the readers of VTK's formats gather, on the way to a mesh.
+#pragma once
+
+#include "export/mesh_file.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace scan2fea {
+
+inline constexpr std::uint64_t vtk_triangle = 5, vtk_triangle_strip = 6, vtk_polygon = 7, vtk_tetra = 10,
+                               vtk_quadratic_tetra = 24;
+
+// How the arrays of sets are named.
+inline constexpr std::string_view vtk_node_set = "node_set ", vtk_element_set = "element_set ",
+                                  vtk_face_set = "face_set ";
+
+struct VtkCells {
+  std::vector<double> coordinates;                                       // three per point
+  std::vector<std::uint64_t> connectivity;                               // points of all cells
+  std::vector<std::uint64_t> offsets;                                    // where each cell ends in it
+  std::vector<std::uint64_t> types;                                      // VTK's, per cell
+  std::map<std::string, std::vector<double>> point_arrays, cell_arrays;  // those of sets
+  std::string unit;
+};
+
+// Throws InvalidInput as the readers say.
+MeshFile mesh_of(const VtkCells& cells, const std::filesystem::path& file);
+
+}  // namespace scan2fea

@@ -1,0 +1,198 @@
+// Between every pair of formats: what both hold is kept, and what the second one does not hold is named on stderr. The
+// test prints the table of what is kept.
+#include "export/formats.hpp"
+#include "tests/run_command.hpp"
+#include "tests/structured_tets.hpp"
+#include "tests/temporary_folder.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cstdio>
+#include <fstream>
+#include <set>
+
+namespace scan2fea {
+namespace {
+
+// Two bodies, a set of nodes, three of faces, one of which overlaps the others, and a unit.
+TetMesh part(int order) {
+  TetMesh mesh = analytic::tetrahedra_of_box({4, 2, 1}, {4, 2, 1}, order);
+  for (Vec3& p : mesh.nodes) p = p * 1.1 + Vec3(0.3, -7, 100);
+  mesh.boundary = find_boundary(mesh.tetrahedra);
+  const BoundingBox box = bounding_box(mesh.nodes);
+  const auto faces_at = [&](double x) {
+    std::vector<std::uint32_t> faces;
+    for (std::uint32_t f = 0; f < mesh.boundary.size(); ++f) {
+      const Triangle t = boundary_triangle(mesh, mesh.boundary[f]);
+      if (std::all_of(t.begin(), t.end(), [&](std::uint32_t n) { return mesh.nodes[n].x() == x; })) faces.push_back(f);
+    }
+    return faces;
+  };
+  std::vector<std::uint32_t> ends = faces_at(box.low.x());
+  const std::vector<std::uint32_t> loaded = faces_at(box.high.x());
+  mesh.face_sets = {named_set("FIXED", ends), named_set("LOADED", loaded)};
+  ends.insert(ends.end(), loaded.begin(), loaded.end());
+  mesh.face_sets.push_back(named_set("ENDS", ends));
+  mesh.node_sets = {named_set("PINS", {0, 3, 7})};
+  std::vector<std::uint32_t> left, right;
+  for (std::uint32_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+    double x = 0;
+    for (const std::uint32_t n : mesh.tetrahedra[t]) x += mesh.nodes[n].x() / 4;
+    (x < (box.low.x() + box.high.x()) / 2 ? left : right).push_back(t);
+  }
+  mesh.element_sets = {named_set("BRACKET", left), named_set("PIN", right)};
+  mesh.unit = "mm";
+  return mesh;
+}
+
+std::vector<NamedSet> sorted(std::vector<NamedSet> sets) {
+  std::sort(sets.begin(), sets.end(), [](const NamedSet& a, const NamedSet& b) { return a.name < b.name; });
+  return sets;
+}
+
+// Where the faces of a set are, whatever the mesh is.
+std::vector<std::pair<std::string, std::set<std::array<double, 3>>>> places(const std::vector<NamedSet>& sets,
+                                                                            const auto& corners_of,
+                                                                            const std::vector<Vec3>& nodes) {
+  std::vector<std::pair<std::string, std::set<std::array<double, 3>>>> result;
+  for (const NamedSet& set : sorted(sets)) {
+    auto& [name, where] = result.emplace_back();
+    name = set.name;
+    for (const std::uint32_t f : set.members) {
+      Vec3 sum = Vec3::Zero();
+      for (const std::uint32_t n : corners_of(f)) sum += nodes[n];
+      where.insert({std::round(sum.x() * 1e6), std::round(sum.y() * 1e6), std::round(sum.z() * 1e6)});
+    }
+  }
+  return result;
+}
+
+auto face_places(const TetMesh& mesh) {
+  return places(
+      mesh.face_sets, [&](std::uint32_t f) { return boundary_triangle(mesh, mesh.boundary[f]); }, mesh.nodes);
+}
+
+auto face_places(const NamedSurface& surface) {
+  return places(
+      surface.face_sets, [&](std::uint32_t f) { return surface.mesh.triangles[f]; }, surface.mesh.vertices);
+}
+
+auto node_places(const std::vector<NamedSet>& sets, const std::vector<Vec3>& nodes) {
+  return places(
+      sets, [](std::uint32_t n) { return std::array{n}; }, nodes);
+}
+
+// One letter for each thing that is as in the part, `-` for one that is not there; anything else fails the test.
+std::string kept(const TetMesh& truth, const MeshFile& read, const std::string& what) {
+  std::string letters;
+  const auto add = [&](char letter, bool is_there, bool is_same, const char* name) {
+    letters += is_there ? letter : '-';
+    EXPECT_TRUE(!is_there || is_same) << what << ": " << name;
+  };
+  if (const auto* mesh = std::get_if<TetMesh>(&read.mesh)) {
+    EXPECT_EQ(mesh->tetrahedra, truth.tetrahedra) << what;
+    EXPECT_NEAR(total_volume(*mesh), total_volume(truth), 1e-9 * total_volume(truth)) << what;
+    add('n', !mesh->node_sets.empty(),
+        node_places(mesh->node_sets, mesh->nodes) == node_places(truth.node_sets, truth.nodes), "sets of nodes");
+    add('f', !mesh->face_sets.empty(), face_places(*mesh) == face_places(truth), "sets of faces");
+    add('e', !mesh->element_sets.empty(), sorted(mesh->element_sets) == sorted(truth.element_sets), "sets of elements");
+    add('u', !mesh->unit.empty(), mesh->unit == truth.unit, "unit");
+    add('2', mesh->order() == 2, mesh->mid_edge_nodes == truth.mid_edge_nodes, "order");
+  } else {
+    const auto& surface = std::get<NamedSurface>(read.mesh);
+    EXPECT_EQ(surface.mesh.triangles.size(), truth.boundary.size()) << what;
+    add('n', !surface.node_sets.empty(),
+        node_places(surface.node_sets, surface.mesh.vertices) == node_places(truth.node_sets, truth.nodes),
+        "sets of nodes");
+    add('f', !surface.face_sets.empty(), face_places(surface) == face_places(truth), "sets of faces");
+    letters += '-';
+    add('u', !surface.unit.empty(), surface.unit == truth.unit, "unit");
+    letters += '-';
+  }
+  return letters;
+}
+
+std::string holdings(const FileFormat& format, bool as_volume) {
+  const Holdings& holds = as_volume ? *format.volume : *format.surface;
+  std::string letters;
+  letters += holds.node_sets ? 'n' : '-';
+  letters += holds.face_sets ? 'f' : '-';
+  letters += as_volume && holds.element_sets ? 'e' : '-';
+  letters += holds.unit ? 'u' : '-';
+  letters += as_volume && holds.second_order ? '2' : '-';
+  return letters;
+}
+
+std::string both(std::string a, const std::string& b) {
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (b[i] == '-') a[i] = '-';
+  return a;
+}
+
+std::string file_name(const FileFormat& format) {
+  return format.extension == ".header" ? "mesh.header" : "part" + std::string(format.extension);
+}
+
+// The words of stderr that tell each loss.
+const char* told(char letter) {
+  switch (letter) {
+    case 'n':
+      return "PINS";
+    case 'f':
+      return "LOADED";
+    case 'e':
+      return "BRACKET, PIN";
+    case 'u':
+      return "left out mm";
+    default:
+      return "second order";
+  }
+}
+
+class Conversions : public testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Order, Conversions, testing::Values(1, 2));
+
+TEST_P(Conversions, KeepWhatBothFormatsHoldAndTellTheRest) {
+  const TetMesh truth = part(GetParam());
+  std::string table = "| from \\ to |";
+  for (const FileFormat& to : file_formats())
+    if (to.write_volume != nullptr || to.write_surface != nullptr) table += " " + std::string(to.extension) + " |";
+  table += "\n";
+  for (const FileFormat& from : file_formats()) {
+    if (from.write_volume == nullptr || from.read == nullptr) continue;
+    const TemporaryFolder folder;
+    const auto start = folder / file_name(from);
+    write_volume(truth, start);
+    const std::string first = kept(truth, read_mesh(start), std::string(from.extension));
+    const std::string expected_first =
+        both(holdings(from, true), GetParam() == 2 ? std::string("nfeu2") : std::string("nfeu-"));
+    EXPECT_EQ(first, expected_first) << from.extension;
+    table += "| " + std::string(from.extension) + " |";
+    for (const FileFormat& to : file_formats()) {
+      if (to.write_volume == nullptr && to.write_surface == nullptr) continue;
+      const bool as_volume = to.write_volume != nullptr;
+      const std::string what = std::string(from.extension) + " to " + std::string(to.extension);
+      std::filesystem::create_directory(folder / "to");
+      const auto target = folder / "to" / file_name(to);
+      const CommandResult result =
+          run_command("convert '" + start.string() + "' -o '" + target.string() + "' --force --quiet");
+      ASSERT_EQ(result.exit_code, 0) << what << ": " << result.standard_error;
+      const std::string letters =
+          to.read == nullptr ? both(first, holdings(to, as_volume)) : kept(truth, read_mesh(target), what);
+      EXPECT_EQ(letters, both(first, holdings(to, as_volume))) << what;
+      for (std::size_t i = 0; i < letters.size(); ++i)
+        if (first[i] != '-' && letters[i] == '-' && (as_volume || first[i] != '2')) {
+          EXPECT_THAT(result.standard_error, testing::HasSubstr(told(first[i]))) << what;
+        }
+      if (letters == first) {
+        EXPECT_EQ(result.standard_error, "") << what;
+      }
+      table += " " + letters + " |";
+    }
+    table += "\n";
+  }
+  std::printf("n: sets of nodes, f: of faces, e: of elements, u: unit, 2: second order\n%s", table.c_str());
+}
+
+}  // namespace
+}  // namespace scan2fea
