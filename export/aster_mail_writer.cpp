@@ -109,9 +109,11 @@ void write_groups(TextOutput& out, const char* keyword, std::span<const NamedSet
 
 }  // namespace
 
-Notes write_mail(const TetMesh& mesh, const std::filesystem::path& file, const FileOptions& options) {
+Notes write_mail(const TetMesh& given, const std::filesystem::path& file, const FileOptions& options) {
   Notes notes;
-  const NameRules rules{.longest = 24, .upper_case = false, .allowed = "_", .starts_with_letter = true};
+  const TetMesh mesh = with_whole_sets(given, notes);
+  const NameRules rules{
+      .longest = 24, .upper_case = false, .allowed = "_", .starts_with_letter = true, .keeps_reserved = true};
   std::vector<NamedSet> of_elements = mesh.element_sets;  // and of faces: groups of elements, all of them
   of_elements.insert(of_elements.end(), mesh.face_sets.begin(), mesh.face_sets.end());
   const std::vector<std::string> elements = names_for(of_elements, rules, {}, notes);

@@ -12,7 +12,15 @@
 namespace scan2fea {
 namespace {
 
-constexpr NameRules rules{.longest = 60, .upper_case = false, .allowed = "_-.", .starts_with_letter = true};
+constexpr NameRules rules{
+    .longest = 60, .upper_case = false, .allowed = "_-.", .starts_with_letter = true, .keeps_reserved = true};
+
+// A surface's file has no sets but those that have names.
+NameRules surface_rules() {
+  NameRules without = rules;
+  without.keeps_reserved = false;
+  return without;
+}
 
 // Comments end at column 80 for some readers.
 void write_comment(TextOutput& out, std::string_view text) {
@@ -139,8 +147,10 @@ void write_face_sets(TextOutput& out, const TetMesh& mesh, std::span<const std::
 
 }  // namespace
 
-Notes write_bdf(const TetMesh& mesh, const std::filesystem::path& file, const FileOptions& options) {
+Notes write_bdf(const TetMesh& given, const std::filesystem::path& file, const FileOptions& options) {
   Notes notes;
+  TetMesh mesh = with_whole_sets(given, notes);
+  mesh.element_sets.pop_back();  // every element has one property, so EALL is what all cards of CTETRA are
   const std::vector<std::string> elements = names_for(mesh.element_sets, rules, {}, notes);
   const std::vector<std::string> faces = names_for(mesh.face_sets, rules, {}, notes);
   const std::vector<std::string> nodes = names_for(mesh.node_sets, rules, {}, notes);
@@ -167,8 +177,8 @@ Notes write_bdf(const TetMesh& mesh, const std::filesystem::path& file, const Fi
 
 Notes write_bdf(const NamedSurface& surface, const std::filesystem::path& file, const FileOptions& options) {
   Notes notes;
-  const std::vector<std::string> faces = names_for(surface.face_sets, rules, {}, notes);
-  const std::vector<std::string> nodes = names_for(surface.node_sets, rules, {}, notes);
+  const std::vector<std::string> faces = names_for(surface.face_sets, surface_rules(), {}, notes);
+  const std::vector<std::string> nodes = names_for(surface.node_sets, surface_rules(), {}, notes);
   const SetParts parts = set_parts(surface.face_sets, surface.mesh.triangles.size());
   OutputFile output(file);
   {

@@ -94,7 +94,9 @@ std::vector<std::uint64_t> write_elements(TextOutput& out, const TetMesh& mesh) 
   std::uint64_t number = mesh.tetrahedra.size();
   for (std::uint64_t& n : numbers)
     if (n != 0) n = ++number;
-  const SetParts parts = set_parts(mesh.element_sets, mesh.tetrahedra.size());
+  // Of the named sets alone: EALL, the last one, is one more set of all.
+  const SetParts parts =
+      set_parts(std::span(mesh.element_sets).first(mesh.element_sets.size() - 1), mesh.tetrahedra.size());
   Elements elements(out, number);
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
     std::vector<std::uint32_t> nodes(mesh.tetrahedra[t].begin(), mesh.tetrahedra[t].end());
@@ -120,14 +122,15 @@ void write_component(TextOutput& out, const std::string& name, const char* kind,
 
 }  // namespace
 
-Notes write_cdb(const TetMesh& mesh, const std::filesystem::path& file, const FileOptions& options) {
+Notes write_cdb(const TetMesh& given, const std::filesystem::path& file, const FileOptions& options) {
   Notes notes;
+  const TetMesh mesh = with_whole_sets(given, notes);
   // Components have one list of names.
   std::vector<NamedSet> sets = mesh.element_sets;
   sets.insert(sets.end(), mesh.face_sets.begin(), mesh.face_sets.end());
   sets.insert(sets.end(), mesh.node_sets.begin(), mesh.node_sets.end());
   const std::vector<std::string> names =
-      names_for(sets, {.longest = 32, .upper_case = true, .allowed = "_"}, {}, notes);
+      names_for(sets, {.longest = 32, .upper_case = true, .allowed = "_", .keeps_reserved = true}, {}, notes);
   const std::size_t faces = mesh.element_sets.size(), nodes = faces + mesh.face_sets.size();
   OutputFile output(file);
   {

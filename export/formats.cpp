@@ -5,6 +5,7 @@
 #include "export/cdb.hpp"
 #include "export/elmer.hpp"
 #include "export/inp.hpp"
+#include "export/med.hpp"
 #include "export/msh.hpp"
 #include "export/su2.hpp"
 #include "export/surface_files.hpp"
@@ -34,6 +35,7 @@ constexpr auto formats = std::to_array<FileFormat>({
     {".bdf", "Nastran", all, sets_and_unit, write_bdf, write_bdf, read_bdf},
     {".nas", "Nastran", all, sets_and_unit, write_bdf, write_bdf, read_bdf},
     {".unv", "I-DEAS, Salome", all, sets_and_unit, write_unv, write_unv, read_unv},
+    {".med", "Salome, Code_Aster", all, sets_and_unit, write_med, write_med, read_med},
     {".xdmf", "DOLFINx", all, {}, write_xdmf, nullptr, read_xdmf},
     {".mail", "Code_Aster", all, {}, write_mail, nullptr, read_mail},
     {".cdb", "ANSYS", all, {}, write_cdb, nullptr, read_cdb},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <numeric>
 #include <set>
 
 namespace scan2fea {
@@ -22,7 +23,7 @@ std::string allowed_form(const std::string& name, const NameRules& rules) {
     if (byte >= 0x80 || (std::isalnum(byte) == 0 && rules.allowed.find(c) == std::string_view::npos)) c = '_';
   }
   if (rules.starts_with_letter && (text.empty() || std::isalpha(static_cast<unsigned char>(text.front())) == 0))
-    text.insert(0, "S_");
+    text = std::string("S_").append(text);
   return text.substr(0, rules.longest);
 }
 
@@ -42,7 +43,7 @@ std::vector<std::string> names_for(std::span<const NamedSet> sets, const NameRul
   for (const NamedSet& set : sets) {
     const std::string allowed = allowed_form(set.name, rules);
     std::string name = allowed;
-    for (int n = 2; is_reserved_set(name) || used.contains(upper(name)); ++n) {
+    for (int n = 2; (is_reserved_set(name) && !rules.keeps_reserved) || used.contains(upper(name)); ++n) {
       const std::string number = "_" + std::to_string(n);
       name = allowed.substr(0, rules.longest - number.size()) + number;
     }
@@ -51,6 +52,25 @@ std::vector<std::string> names_for(std::span<const NamedSet> sets, const NameRul
     names.push_back(std::move(name));
   }
   return names;
+}
+
+TetMesh with_whole_sets(const TetMesh& mesh, std::vector<std::string>& notes) {
+  TetMesh whole = mesh;
+  const auto add = [&](std::vector<NamedSet>& sets, const char* name, std::size_t members) {
+    for (NamedSet& set : sets) {
+      if (!is_reserved_set(set.name)) continue;
+      notes.push_back("set " + set.name + " is named " + set.name + "_2 in the file");
+      set.name += "_2";
+    }
+    NamedSet& all = sets.emplace_back();
+    all.name = name;
+    all.members.resize(members);
+    std::iota(all.members.begin(), all.members.end(), 0U);
+  };
+  add(whole.node_sets, "NALL", mesh.nodes.size());
+  add(whole.face_sets, "SALL", mesh.boundary.size());
+  add(whole.element_sets, "EALL", mesh.tetrahedra.size());
+  return whole;
 }
 
 SetParts set_parts(std::span<const NamedSet> sets, std::size_t members) {

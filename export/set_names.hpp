@@ -1,7 +1,7 @@
 // Names of sets as formats allow them, and the parts into which overlapping sets cut a mesh.
 #pragma once
 
-#include "preproc/mesh/named_sets.hpp"
+#include "preproc/mesh/tet_mesh.hpp"
 
 #include <cstddef>
 #include <span>
@@ -19,7 +19,12 @@ struct NameRules {
   bool upper_case = false;
   std::string_view allowed = "_-.+";  // besides letters and digits; what is not becomes `_`
   bool starts_with_letter = true;
+  bool keeps_reserved = false;  // of sets that `with_whole_sets` made
 };
+
+// The mesh with NALL, EALL and SALL as sets, for formats that have nothing else for them. Sets of these names are
+// renamed, which is noted.
+TetMesh with_whole_sets(const TetMesh& mesh, std::vector<std::string>& notes);
 
 // One per set and in their order: no two alike, whatever the case, nor one like those that are `taken`. Each change
 // but that of case is told.

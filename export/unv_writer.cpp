@@ -12,7 +12,15 @@ namespace scan2fea {
 namespace {
 
 // Groups' names have a line of forty characters.
-constexpr NameRules rules{.longest = 40, .upper_case = false, .allowed = "_-.", .starts_with_letter = true};
+constexpr NameRules rules{
+    .longest = 40, .upper_case = false, .allowed = "_-.", .starts_with_letter = true, .keeps_reserved = true};
+
+// A surface's file has no sets but those that have names.
+NameRules surface_rules() {
+  NameRules without = rules;
+  without.keeps_reserved = false;
+  return without;
+}
 constexpr std::uint64_t node_entity = 7, element_entity = 8;
 
 void write_integers(TextOutput& out, std::initializer_list<std::uint64_t> numbers) {
@@ -67,8 +75,9 @@ void write_nodes(TextOutput& out, const std::vector<Vec3>& nodes) {
 }
 
 // Nodes of second order run along the edges: a corner, the middle behind it, the next corner.
-void write_triangle(TextOutput& out, std::uint64_t number, const Triangle& corners, const Triangle* mid_edges) {
-  write_integers(out, {number, mid_edges != nullptr ? 92U : 91U, 1, 1, 7, mid_edges != nullptr ? 6U : 3U});
+void write_triangle(TextOutput& out, std::uint64_t number, std::uint64_t property, const Triangle& corners,
+                    const Triangle* mid_edges) {
+  write_integers(out, {number, mid_edges != nullptr ? 92U : 91U, property, 1, 7, mid_edges != nullptr ? 6U : 3U});
   const auto n = [](std::uint32_t index) { return std::uint64_t{index} + 1; };
   if (mid_edges == nullptr)
     write_integers(out, {n(corners[0]), n(corners[1]), n(corners[2])});
@@ -77,11 +86,13 @@ void write_triangle(TextOutput& out, std::uint64_t number, const Triangle& corne
         out, {n(corners[0]), n((*mid_edges)[0]), n(corners[1]), n((*mid_edges)[1]), n(corners[2]), n((*mid_edges)[2])});
 }
 
-void write_tetrahedra(TextOutput& out, const TetMesh& mesh) {
+// `parts`: physical properties, by which Gmsh, which reads no groups, tells sets from one another.
+void write_tetrahedra(TextOutput& out, const TetMesh& mesh, const SetParts& parts) {
   const auto n = [](std::uint32_t index) { return std::uint64_t{index} + 1; };
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
     const Tetrahedron& c = mesh.tetrahedra[t];
-    write_integers(out, {t + 1, mesh.order() == 2 ? 118U : 111U, 1, 1, 7, mesh.order() == 2 ? 10U : 4U});
+    write_integers(out, {t + 1, mesh.order() == 2 ? 118U : 111U, std::uint64_t{parts.part[t]} + 1, 1, 7,
+                         mesh.order() == 2 ? 10U : 4U});
     if (mesh.order() == 1) {
       write_integers(out, {n(c[0]), n(c[1]), n(c[2]), n(c[3])});
       continue;
@@ -122,8 +133,9 @@ void write_node_groups(Groups& groups, std::span<const NamedSet> sets, std::span
 
 }  // namespace
 
-Notes write_unv(const TetMesh& mesh, const std::filesystem::path& file, const FileOptions&) {
+Notes write_unv(const TetMesh& given, const std::filesystem::path& file, const FileOptions&) {
   Notes notes;
+  const TetMesh mesh = with_whole_sets(given, notes);
   // One list of names for all kinds, since groups of one name would be one group to many readers.
   std::vector<NamedSet> sets = mesh.element_sets;
   sets.insert(sets.end(), mesh.face_sets.begin(), mesh.face_sets.end());
@@ -142,13 +154,16 @@ Notes write_unv(const TetMesh& mesh, const std::filesystem::path& file, const Fi
     write_units(out, mesh.unit);
     write_nodes(out, mesh.nodes);
     begin(out, "  2412");
-    write_tetrahedra(out, mesh);
+    const SetParts bodies = set_parts(given.element_sets, mesh.tetrahedra.size());
+    const SetParts faces = set_parts(given.face_sets, mesh.boundary.size());
+    write_tetrahedra(out, mesh, bodies);
     std::uint64_t number = mesh.tetrahedra.size();
     for (std::size_t f = 0; f < mesh.boundary.size(); ++f) {
       if (triangle_number[f] == 0) continue;
       triangle_number[f] = ++number;
       const Triangle mid_edges = mesh.order() == 2 ? boundary_mid_edge_nodes(mesh, mesh.boundary[f]) : Triangle{};
-      write_triangle(out, number, boundary_triangle(mesh, mesh.boundary[f]), mesh.order() == 2 ? &mid_edges : nullptr);
+      write_triangle(out, number, bodies.of.size() + faces.part[f] + 1, boundary_triangle(mesh, mesh.boundary[f]),
+                     mesh.order() == 2 ? &mid_edges : nullptr);
     }
     end(out);
     begin(out, "  2467");
@@ -170,7 +185,7 @@ Notes write_unv(const NamedSurface& surface, const std::filesystem::path& file, 
   Notes notes;
   std::vector<NamedSet> sets = surface.face_sets;
   sets.insert(sets.end(), surface.node_sets.begin(), surface.node_sets.end());
-  const std::vector<std::string> names = names_for(sets, rules, {}, notes);
+  const std::vector<std::string> names = names_for(sets, surface_rules(), {}, notes);
   OutputFile output(file);
   {
     TextOutput out(output.stream());
@@ -178,7 +193,7 @@ Notes write_unv(const NamedSurface& surface, const std::filesystem::path& file, 
     write_nodes(out, surface.mesh.vertices);
     begin(out, "  2412");
     for (std::size_t t = 0; t < surface.mesh.triangles.size(); ++t)
-      write_triangle(out, t + 1, surface.mesh.triangles[t], nullptr);
+      write_triangle(out, t + 1, 1, surface.mesh.triangles[t], nullptr);
     end(out);
     begin(out, "  2467");
     Groups groups(out);

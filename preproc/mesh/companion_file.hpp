@@ -1,4 +1,4 @@
-// The files that this library starts or loads at run time instead of linking them, as TetGen's worker.
+// The files that this library starts or loads at run time instead of linking them: TetGen's worker and MED's module.
 #pragma once
 
 #include <filesystem>
