@@ -8,6 +8,7 @@
 #include "preproc/mesh/input_file.hpp"
 #include "preproc/mesh/output_file.hpp"
 
+#include <algorithm>
 #include <array>
 #include <dlfcn.h>
 #include <span>
@@ -60,10 +61,10 @@ int number(std::uint32_t node) {
 void write(const MedMesh& mesh, const std::filesystem::path& file) {
   auto* const write_by_med = reinterpret_cast<WriteByMed*>(load(write_by_med_name));
   OutputFile output(file);
-  std::string failure;
-  write_by_med(mesh, output.temporary_path(), failure);
-  if (!failure.empty())
-    throw IoError({"the MED library cannot write the file", file.string(), failure, {}, "freeing disk space"});
+  std::string bytes, failure;
+  write_by_med(mesh, bytes, failure);
+  if (!failure.empty()) throw IoError({"the MED library cannot write the file", file.string(), failure, {}, {}});
+  output.stream().write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   output.commit();
 }
 

@@ -1,5 +1,6 @@
 #include "export/med_module.hpp"
 
+#include <cstdlib>
 #include <cstring>
 #include <map>
 #include <med.h>
@@ -17,9 +18,7 @@ void require(bool good, const char* what) {
 // An open file; closing one that was written may fail, too.
 class MedFile {
  public:
-  MedFile(const std::filesystem::path& file, med_access_mode mode) : id_(MEDfileOpen(file.c_str(), mode)) {
-    require(id_ >= 0, "the file cannot be opened");
-  }
+  explicit MedFile(med_idt id) : id_(id) { require(id_ >= 0, "the file cannot be opened"); }
   ~MedFile() {
     if (id_ >= 0) MEDfileClose(id_);
   }
@@ -30,7 +29,7 @@ class MedFile {
   void close() {
     const med_err result = MEDfileClose(id_);
     id_ = -1;
-    require(result >= 0, "the file cannot be closed: is the disk full?");
+    require(result >= 0, "the file cannot be closed");
   }
 
  private:
@@ -64,8 +63,9 @@ std::vector<med_int> numbers_of(const MedFamilies& families, int sign, int first
   return numbers;
 }
 
-void write(const MedMesh& mesh, const std::filesystem::path& path) {
-  MedFile file(path, MED_ACC_CREAT);
+std::string write(const MedMesh& mesh) {
+  med_memfile image MED_MEMFILE_INIT;
+  MedFile file(MEDmemFileOpen("mesh.med", &image, MED_FALSE, MED_ACC_CREAT));
   const std::string axes = padded("X", MED_SNAME_SIZE) + padded("Y", MED_SNAME_SIZE) + padded("Z", MED_SNAME_SIZE);
   std::string units;
   for (int k = 0; k < 3; ++k) units += padded(mesh.unit, MED_SNAME_SIZE);
@@ -99,6 +99,9 @@ void write(const MedMesh& mesh, const std::filesystem::path& path) {
             "the families of elements cannot be written");
   }
   file.close();
+  std::string bytes(static_cast<const char*>(image.app_image_ptr), image.app_image_size);
+  std::free(image.app_image_ptr);
+  return bytes;
 }
 
 std::string text_of(const char* field, std::size_t size) {
@@ -130,7 +133,7 @@ Groups read_groups(med_idt file, const char* mesh, std::size_t bytes) {
 class Reader {
  public:
   explicit Reader(const std::filesystem::path& path)
-      : bytes_(std::filesystem::file_size(path)), file_(path, MED_ACC_RDONLY) {
+      : bytes_(std::filesystem::file_size(path)), file_(MEDfileOpen(path.c_str(), MED_ACC_RDONLY)) {
     require(MEDnMesh(file_.id()) > 0 && MEDmeshnAxis(file_.id(), 1) == 3, "the file holds no mesh in three dimensions");
   }
 
@@ -226,8 +229,8 @@ void guarded(const Do& what, std::string& failure) {
 extern "C" WriteByMed scan2fea_write_by_med;
 extern "C" ReadByMed scan2fea_read_by_med;
 
-void scan2fea_write_by_med(const MedMesh& mesh, const std::filesystem::path& file, std::string& failure) {
-  guarded([&] { write(mesh, file); }, failure);
+void scan2fea_write_by_med(const MedMesh& mesh, std::string& bytes, std::string& failure) {
+  guarded([&] { bytes = write(mesh); }, failure);
 }
 
 void scan2fea_read_by_med(const std::filesystem::path& file, MedMesh& mesh, std::string& failure) {

@@ -33,8 +33,9 @@ struct MedMesh {
   std::string unit, description;
 };
 
+// The file's bytes are made in memory: where a disk fills while HDF5 writes to it, HDF5 ends the process with a crash.
 // Both say in `failure` what went wrong, empty where nothing did: nothing is thrown through the module's door.
-using WriteByMed = void(const MedMesh& mesh, const std::filesystem::path& file, std::string& failure);
+using WriteByMed = void(const MedMesh& mesh, std::string& bytes, std::string& failure);
 using ReadByMed = void(const std::filesystem::path& file, MedMesh& mesh, std::string& failure);
 
 inline constexpr int med_triangle_3 = 203, med_triangle_6 = 206, med_tetrahedron_4 = 304, med_tetrahedron_10 = 310;

@@ -77,7 +77,8 @@ void write_nodes(TextOutput& out, const std::vector<Vec3>& nodes) {
 // Nodes of second order run along the edges: a corner, the middle behind it, the next corner.
 void write_triangle(TextOutput& out, std::uint64_t number, std::uint64_t property, const Triangle& corners,
                     const Triangle* mid_edges) {
-  write_integers(out, {number, mid_edges != nullptr ? 92U : 91U, property, 1, 7, mid_edges != nullptr ? 6U : 3U});
+  write_integers(out,
+                 {number, mid_edges != nullptr ? 92U : 91U, property, property, 7, mid_edges != nullptr ? 6U : 3U});
   const auto n = [](std::uint32_t index) { return std::uint64_t{index} + 1; };
   if (mid_edges == nullptr)
     write_integers(out, {n(corners[0]), n(corners[1]), n(corners[2])});
@@ -86,13 +87,13 @@ void write_triangle(TextOutput& out, std::uint64_t number, std::uint64_t propert
         out, {n(corners[0]), n((*mid_edges)[0]), n(corners[1]), n((*mid_edges)[1]), n(corners[2]), n((*mid_edges)[2])});
 }
 
-// `parts`: physical properties, by which Gmsh, which reads no groups, tells sets from one another.
+// `parts`: physical and material properties, by which Gmsh, which reads no groups, tells sets from one another.
 void write_tetrahedra(TextOutput& out, const TetMesh& mesh, const SetParts& parts) {
   const auto n = [](std::uint32_t index) { return std::uint64_t{index} + 1; };
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
     const Tetrahedron& c = mesh.tetrahedra[t];
-    write_integers(out, {t + 1, mesh.order() == 2 ? 118U : 111U, std::uint64_t{parts.part[t]} + 1, 1, 7,
-                         mesh.order() == 2 ? 10U : 4U});
+    const std::uint64_t property = std::uint64_t{parts.part[t]} + 1;
+    write_integers(out, {t + 1, mesh.order() == 2 ? 118U : 111U, property, property, 7, mesh.order() == 2 ? 10U : 4U});
     if (mesh.order() == 1) {
       write_integers(out, {n(c[0]), n(c[1]), n(c[2]), n(c[3])});
       continue;

@@ -1,8 +1,8 @@
 // Between every pair of formats: what both hold is kept, and what the second one does not hold is named on stderr. The
 // test prints the table of what is kept.
 #include "export/formats.hpp"
+#include "tests/part_with_sets.hpp"
 #include "tests/run_command.hpp"
-#include "tests/structured_tets.hpp"
 #include "tests/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
@@ -14,34 +14,13 @@
 namespace scan2fea {
 namespace {
 
-// Two bodies, a set of nodes, three of faces, one of which overlaps the others, and a unit.
+// One set of faces overlaps the others; coordinates have digits to lose.
 TetMesh part(int order) {
-  TetMesh mesh = analytic::tetrahedra_of_box({4, 2, 1}, {4, 2, 1}, order);
+  TetMesh mesh = analytic::part_with_sets(order);
   for (Vec3& p : mesh.nodes) p = p * 1.1 + Vec3(0.3, -7, 100);
-  mesh.boundary = find_boundary(mesh.tetrahedra);
-  const BoundingBox box = bounding_box(mesh.nodes);
-  const auto faces_at = [&](double x) {
-    std::vector<std::uint32_t> faces;
-    for (std::uint32_t f = 0; f < mesh.boundary.size(); ++f) {
-      const Triangle t = boundary_triangle(mesh, mesh.boundary[f]);
-      if (std::all_of(t.begin(), t.end(), [&](std::uint32_t n) { return mesh.nodes[n].x() == x; })) faces.push_back(f);
-    }
-    return faces;
-  };
-  std::vector<std::uint32_t> ends = faces_at(box.low.x());
-  const std::vector<std::uint32_t> loaded = faces_at(box.high.x());
-  mesh.face_sets = {named_set("FIXED", ends), named_set("LOADED", loaded)};
-  ends.insert(ends.end(), loaded.begin(), loaded.end());
+  std::vector<std::uint32_t> ends = mesh.face_sets[0].members;
+  ends.insert(ends.end(), mesh.face_sets[1].members.begin(), mesh.face_sets[1].members.end());
   mesh.face_sets.push_back(named_set("ENDS", ends));
-  mesh.node_sets = {named_set("PINS", {0, 3, 7})};
-  std::vector<std::uint32_t> left, right;
-  for (std::uint32_t t = 0; t < mesh.tetrahedra.size(); ++t) {
-    double x = 0;
-    for (const std::uint32_t n : mesh.tetrahedra[t]) x += mesh.nodes[n].x() / 4;
-    (x < (box.low.x() + box.high.x()) / 2 ? left : right).push_back(t);
-  }
-  mesh.element_sets = {named_set("BRACKET", left), named_set("PIN", right)};
-  mesh.unit = "mm";
   return mesh;
 }
 

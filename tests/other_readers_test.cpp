@@ -1,11 +1,13 @@
-// Readers that know nothing of scan2fea (Python's meshio and VTK) find in our files what we wrote.
+// Readers that know nothing of scan2fea (meshio, VTK, Gmsh, DOLFINx) find in our files what we wrote: nodes, elements,
+// volume, the order of mid-edge nodes and the sizes of sets. DOLFINx solves a patch test on them, too.
 #include "export/formats.hpp"
-#include "tests/structured_tets.hpp"
+#include "tests/part_with_sets.hpp"
 #include "tests/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <map>
 #include <sstream>
 #include <string>
 #include <sys/wait.h>
@@ -16,7 +18,8 @@ namespace {
 struct Case {
   std::string library;
   std::string file;
-  MshVersion msh_version;
+  std::map<std::string, double> sets;  // names as the library tells them, and sizes
+  MshVersion msh_version = MshVersion::v4_1;
 };
 
 // Otherwise the test's name shows the bytes of the struct, pointers among them.
@@ -24,23 +27,43 @@ void PrintTo(const Case& c, std::ostream* out) {
   *out << c.library << " " << c.file << (c.msh_version == MshVersion::v2_2 ? " 2.2" : "");
 }
 
+// Of the part: twelve tetrahedra to a unit of length, four triangles at each end.
+const std::map<std::string, double> bodies{{"BRACKET", 24}, {"PIN", 24}}, ends{{"FIXED", 4}, {"LOADED", 4}},
+    pins{{"PINS", 3}};
+
+std::map<std::string, double> both(std::map<std::string, double> a, const std::map<std::string, double>& b) {
+  a.insert(b.begin(), b.end());
+  return a;
+}
+
+const auto all = both(both(bodies, ends), pins), tags = both(bodies, ends);
+
 class OtherReaders : public testing::TestWithParam<std::tuple<Case, int>> {};
-INSTANTIATE_TEST_SUITE_P(LibraryAndOrder, OtherReaders,
-                         testing::Combine(testing::Values(Case{"meshio", "box.inp", MshVersion::v4_1},
-                                                          Case{"meshio", "box.msh", MshVersion::v2_2},
-                                                          Case{"meshio", "box.msh", MshVersion::v4_1},
-                                                          Case{"meshio", "box.vtu", MshVersion::v4_1},
-                                                          Case{"vtk", "box.vtu", MshVersion::v4_1}),
-                                          testing::Values(1, 2)));
+INSTANTIATE_TEST_SUITE_P(
+    LibraryAndOrder, OtherReaders,
+    testing::Combine(
+        testing::Values(Case{"meshio", "box.inp", both(bodies, pins)}, Case{"meshio", "box.msh", all, MshVersion::v2_2},
+                        Case{"meshio", "box.msh", all}, Case{"meshio", "box.vtu", all},
+                        Case{"meshio", "box.med", both(all, {{"EALL", 48}, {"SALL", 56}})},
+                        Case{"meshio", "box.xdmf", both(tags, pins)},
+                        Case{"meshio", "box.bdf", {{"property_2", 24}, {"property_3", 24}}},
+                        Case{"vtk", "box.vtu", all}, Case{"gmsh", "box.msh", all, MshVersion::v2_2},
+                        Case{"gmsh", "box.msh", both(all, {{"SALL", 48}})},
+                        Case{"gmsh",
+                             "box.unv",
+                             {{"physical_3_2", 24}, {"physical_3_3", 24}, {"physical_2_5", 4}, {"physical_2_6", 4}}},
+                        Case{"dolfinx", "box.xdmf", both(tags, {{"area_of_FIXED", 2}})},
+                        Case{"dolfinx", "box.msh", both(tags, {{"area_of_FIXED", 2}})}),
+        testing::Values(1, 2)));
 
 TEST_P(OtherReaders, FindTheSameMesh) {
   const auto& [c, order] = GetParam();
-  const TetMesh mesh = analytic::tetrahedra_of_box({3, 2, 1}, {3, 2, 2}, order);
+  const TetMesh mesh = analytic::part_with_sets(order);
   const TemporaryFolder folder;
   FileOptions options;
   options.provenance = "a test";
   options.msh_version = c.msh_version;
-  write_volume(mesh, folder / c.file, options);
+  EXPECT_EQ(write_volume(mesh, folder / c.file, options), Notes{});
 
   // Debian's own interpreter, which has Debian's packages; another one may come first on the path.
   const std::string command = "/usr/bin/python3 '" SCAN2FEA_TESTS_FOLDER "/read_volume_mesh.py' " + c.library + " '" +
@@ -50,20 +73,29 @@ TEST_P(OtherReaders, FindTheSameMesh) {
   std::string printed;
   for (int byte; (byte = std::fgetc(pipe)) != EOF;) printed += static_cast<char>(byte);
   const int status = WEXITSTATUS(pclose(pipe));
-  if (status == 77 || status == 127)
-    GTEST_SKIP() << c.library << " is not installed (Debian: python3-meshio, python3-vtk9)";
+  if (status == 77 || status == 127) GTEST_SKIP() << c.library << " is not installed (see examples/setup)";
   ASSERT_EQ(status, 0) << printed;
 
+  // The libraries print warnings, too.
   std::size_t nodes = 0, tetrahedra = 0;
   double volume = 0, midpoint_error = 1;
-  // Some versions of meshio print warnings first.
-  const std::size_t last_line = printed.rfind('\n', printed.size() - 2);
-  std::istringstream(printed.substr(last_line == std::string::npos ? 0 : last_line + 1)) >> nodes >> tetrahedra >>
-      volume >> midpoint_error;
-  EXPECT_EQ(nodes, mesh.nodes.size());
+  std::map<std::string, double> sets;
+  std::istringstream lines(printed);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string first, name;
+    words >> first;
+    if (first == "mesh") words >> nodes >> tetrahedra >> volume >> midpoint_error;
+    if (first == "set") words >> name >> sets[name];
+  }
+  EXPECT_EQ(nodes, mesh.nodes.size()) << printed;
   EXPECT_EQ(tetrahedra, mesh.tetrahedra.size());
-  EXPECT_NEAR(volume, 6, 1e-12);
+  EXPECT_NEAR(volume, 8, 1e-12);
   EXPECT_LE(midpoint_error, 1e-12);
+  for (const auto& [name, size] : c.sets) {
+    ASSERT_TRUE(sets.contains(name)) << name << " in:\n" << printed;
+    EXPECT_NEAR(sets[name], size, 1e-12) << name;
+  }
 }
 
 }  // namespace
