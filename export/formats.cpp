@@ -42,6 +42,7 @@ constexpr auto formats = std::to_array<FileFormat>({
     {".header", "Elmer", of_elmer, {}, write_elmer, nullptr, read_elmer},
     {".su2", "SU2", of_su2, {}, write_su2, nullptr, read_su2},
     {".vtp", "VTK", {}, sets_and_unit, nullptr, write_vtp, read_vtk_xml},
+    {".vtk", "VTK, legacy", Holdings{.second_order = true}, Holdings{}, nullptr, nullptr, read_vtk_legacy},
     {".stl", "STL", {}, Holdings{}, nullptr, write_plain_surface, read_plain_surface},
     {".obj", "Wavefront", {}, Holdings{}, nullptr, write_plain_surface, read_plain_surface},
     {".ply", "Stanford", {}, Holdings{}, nullptr, write_plain_surface, read_plain_surface},
@@ -108,19 +109,20 @@ std::span<const FileFormat> file_formats() {
 }
 
 const FileFormat* find_format(const std::filesystem::path& file) {
-  const std::string extension = lower_case_extension(file);
+  const std::string extension = extension_of_content(file);
   const auto* const it =
       std::find_if(formats.begin(), formats.end(), [&](const FileFormat& f) { return f.extension == extension; });
   return it == formats.end() ? nullptr : it;
 }
 
+// Nothing is written compressed.
 bool writes_volume(const std::filesystem::path& file) {
-  const FileFormat* format = find_format(file);
+  const FileFormat* format = lower_case_extension(file) == ".gz" ? nullptr : find_format(file);
   return format != nullptr && format->write_volume != nullptr;
 }
 
 bool writes_surface(const std::filesystem::path& file) {
-  const FileFormat* format = find_format(file);
+  const FileFormat* format = lower_case_extension(file) == ".gz" ? nullptr : find_format(file);
   return format != nullptr && format->write_surface != nullptr;
 }
 

@@ -11,4 +11,9 @@ std::string lower_case_extension(const std::filesystem::path& file) {
   return extension;
 }
 
+std::string extension_of_content(const std::filesystem::path& file) {
+  const std::string extension = lower_case_extension(file);
+  return extension == ".gz" ? lower_case_extension(file.stem()) : extension;
+}
+
 }  // namespace scan2fea

@@ -1,6 +1,8 @@
 #include "preproc/mesh/input_file.hpp"
 
 #include "preproc/mesh/error.hpp"
+#include "preproc/mesh/gzip.hpp"
+#include "preproc/mesh/require_memory.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -11,6 +13,12 @@
 namespace scan2fea {
 
 InputFile::InputFile(std::filesystem::path path) : path_(std::move(path)) {
+  read();
+  if (bytes().starts_with("\x1f\x8b")) expand();
+  if (size_ == 0) fail("the file is empty");
+}
+
+void InputFile::read() {
   std::error_code error;
   const auto status = std::filesystem::status(path_, error);
   if (status.type() == std::filesystem::file_type::not_found) fail("no such file");
@@ -33,7 +41,26 @@ InputFile::InputFile(std::filesystem::path path) : path_(std::move(path)) {
     std::copy(all.view().begin(), all.view().end(), bytes_.get());
   }
   if (stream.bad()) fail("the file cannot be read", std::strerror(errno));
-  if (size_ == 0) fail("the file is empty");
+}
+
+// A gzip file is one member behind another.
+void InputFile::expand() {
+  gzip::Expander expander(bytes());
+  std::size_t capacity = 4 * size_ + 1024, size = 0;
+  auto expanded = std::make_unique_for_overwrite<char[]>(capacity);
+  for (;;) {
+    size += expander.read({expanded.get() + size, capacity - size});
+    if (expander.is_broken()) fail("the compressed file is broken", {}, {}, "gzip --test");
+    if (expander.is_at_end()) break;
+    if (size < capacity) continue;
+    capacity *= 2;
+    require_memory(static_cast<double>(capacity), 1, "bytes", "less in one file");
+    auto larger = std::make_unique_for_overwrite<char[]>(capacity);
+    std::copy_n(expanded.get(), size, larger.get());
+    expanded = std::move(larger);
+  }
+  bytes_ = std::move(expanded);
+  size_ = size;
 }
 
 void InputFile::fail(std::string what, std::string value, std::string limit, std::string advice) const {

@@ -9,10 +9,11 @@
 namespace scan2fea {
 
 // Read whole rather than mapped: a mapped file that another program shortens meanwhile ends the process with SIGBUS,
-// and a pipe cannot be mapped.
+// and a pipe cannot be mapped. What is compressed by gzip is expanded, whatever the file is called.
 class InputFile {
  public:
-  // Throws InvalidInput where the file is missing, a directory, unreadable or empty.
+  // Throws InvalidInput where the file is missing, a directory, unreadable, empty, or broken gzip; NotMeshable where
+  // memory does not hold what it expands to.
   explicit InputFile(std::filesystem::path path);
 
   const std::filesystem::path& path() const { return path_; }
@@ -28,6 +29,9 @@ class InputFile {
                                  std::string advice = {}) const;
 
  private:
+  void read();
+  void expand();
+
   std::filesystem::path path_;
   std::unique_ptr<char[]> bytes_;
   std::size_t size_ = 0;

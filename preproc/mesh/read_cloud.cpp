@@ -20,7 +20,7 @@ bool is_of_rows(const std::string& extension) {
 PointCloud read_cloud_format(const InputFile& file) {
   if (is_las(file)) return read_las(file);
   if (is_pcd(file)) return read_pcd(file);
-  const std::string extension = lower_case_extension(file.path());
+  const std::string extension = extension_of_content(file.path());
   if (extension == ".las" || extension == ".laz") return read_las(file);
   if (extension == ".pcd") return read_pcd(file);
   if (extension == ".ptx") return read_ptx(file);
@@ -30,7 +30,7 @@ PointCloud read_cloud_format(const InputFile& file) {
 // The points of a file whose faces, if any, are not wanted.
 PointCloud points_of(const InputFile& file, SurfaceMesh mesh) {
   if (is_ply(file)) return read_ply_points(file);
-  if (!is_off(file) && lower_case_extension(file.path()) == ".obj") return read_obj_points(file);
+  if (!is_off(file) && extension_of_content(file.path()) == ".obj") return read_obj_points(file);
   return {.points = std::move(mesh.vertices), .normals = {}, .scanners = {}};
 }
 
@@ -49,7 +49,7 @@ PointCloud checked(const InputFile& file, PointCloud cloud) {
 bool is_cloud_format(const InputFile& file) {
   if (is_ply(file) || is_off(file)) return false;
   if (is_las(file) || is_pcd(file)) return true;
-  const std::string extension = lower_case_extension(file.path());
+  const std::string extension = extension_of_content(file.path());
   return is_of_rows(extension) || extension == ".las" || extension == ".laz" || extension == ".pcd" ||
          extension == ".ptx";
 }

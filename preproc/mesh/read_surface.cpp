@@ -12,7 +12,7 @@ SurfaceMesh read_faces_and_vertices(const InputFile& file) {
   if (is_ply(file)) return read_ply(file);
   if (is_off(file)) return read_off(file);
   if (is_binary_stl(file)) return read_stl(file);
-  const std::string extension = lower_case_extension(file.path());
+  const std::string extension = extension_of_content(file.path());
   if (extension == ".stl") return read_stl(file);
   if (extension == ".obj") return read_obj(file);
   if (extension == ".ply") return read_ply(file);
