@@ -1,5 +1,6 @@
 #include "preproc/pipeline.hpp"
 
+#include "preproc/made_up.hpp"
 #include "preproc/mesh/error.hpp"
 #include "preproc/stage_descriptions.hpp"
 #include "preproc/surface/faces/carry_sets.hpp"
@@ -275,8 +276,42 @@ void carry_sets(const SelectedScan& selected, const SimplifyResult& simplified, 
   }
 }
 
-void run_stages(SurfaceMesh scan, const PipelineOptions& options, const Progress& progress, StageLog& log,
-                PipelineResult& result) {
+// The vertices of the faces that are selected.
+std::vector<bool> domain_of(const SurfaceMesh& scan, const NamedSelection& selection, const PipelineOptions& options,
+                            const Progress& progress) {
+  const FeatureOptions features = options.simplify ? options.simplify->features : FeatureOptions{};
+  const SelectedScan selected = select_sets(scan, std::span(&selection, 1), {}, features, progress);
+  std::vector<bool> domain(scan.vertices.size(), false);
+  // Vertices that cuts have added come after those of the scan.
+  for (const std::uint32_t v : vertices_of_faces(selected.mesh, selected.sets.front().members))
+    if (v < domain.size()) domain[v] = true;
+  return domain;
+}
+
+// What the scanner has seen of the repaired scan; nothing where it has seen all of it.
+std::vector<FaceOrigin> origins_of_scan(const PipelineResult& result, const SurfaceMesh* seen) {
+  const bool is_repaired =
+      std::ranges::any_of(result.repaired.changes, [](const RepairChange& change) { return is_made_up(change.kind); });
+  if (seen == nullptr && is_repaired) seen = &*result.given;
+  return seen == nullptr ? std::vector<FaceOrigin>() : origins_by_place(result.scan, *seen);
+}
+
+// Sets of what was made up, after the user's own.
+void add_made_up_sets(const SurfaceMesh& start, const std::vector<FaceOrigin>& of_start, PipelineResult& result) {
+  if (of_start.empty()) return;
+  for (NamedSet& set : made_up_sets(carried_origins(result.surface, start, of_start))) {
+    MadeSet made{.name = set.name, .triangles = set.members.size()};
+    for (const std::uint32_t f : set.members)
+      made.area += area_vector(result.surface, result.surface.triangles[f]).norm() / 2;
+    made.area_of_scan = made.area;
+    result.sets.push_back(std::move(made));
+    result.face_sets.push_back(std::move(set));
+  }
+}
+
+// `seen`: of a cloud, the faces that close no gap.
+void run_stages(SurfaceMesh scan, const SurfaceMesh* seen, const PipelineOptions& options, const Progress& progress,
+                StageLog& log, PipelineResult& result) {
   const auto stairs = options.simplify ? find_stair_steps(scan) : std::nullopt;
   if (options.repair)
     log.run("repair", [&](StageRecord& record) {
@@ -290,14 +325,23 @@ void run_stages(SurfaceMesh scan, const PipelineOptions& options, const Progress
     });
   result.scan = std::move(scan);
   PipelineOptions chain = options;
+  std::vector<FaceOrigin> origins = origins_of_scan(result, seen);
   SurfaceMesh enriched;  // scans are large: none is copied that the next stage reads only
   if (options.enrich)
     log.run("enrich", [&](StageRecord& record) {
       enriched = result.scan;
-      EnrichResult made = enrich(enriched, *options.enrich, progress);
+      EnrichOptions how = *options.enrich;
+      if (options.enrich_domain) how.domain = domain_of(result.scan, *options.enrich_domain, options, progress);
+      EnrichResult made = enrich(enriched, how, progress);
       describe(made, record);
       result.primitives = std::move(made.primitives);
-      if (!options.simplify) result.measured_vertices = enriched.vertices.size() - made.added;
+      const std::size_t measured = enriched.vertices.size() - made.added;
+      if (!options.simplify) result.measured_vertices = measured;
+      if (made.added > 0) {
+        origins = origins.empty() ? std::vector<FaceOrigin>(enriched.triangles.size(), FaceOrigin::measured)
+                                  : carried_origins(enriched, result.scan, origins);
+        mark_enriched(enriched, measured, origins);
+      }
       hand_on_creases(enriched, made.creases, chain.simplify);
     });
   std::optional<SelectedScan> selected;
@@ -313,6 +357,7 @@ void run_stages(SurfaceMesh scan, const PipelineOptions& options, const Progress
   result.surface = std::move(made.surface);
   result.features = std::move(made.simplified.features);
   if (selected) carry_sets(*selected, made.simplified, result);
+  add_made_up_sets(options.enrich ? enriched : result.scan, origins, result);
   if (options.tetrahedralize) {
     result.volume_mesh = std::move(made.filled.mesh);
     const std::vector<std::uint32_t>& parent = made.filled.boundary_parent;  // where the boundary was split
@@ -343,7 +388,7 @@ PipelineResult run_pipeline(SurfaceMesh scan, const PipelineOptions& options, co
                             const StageListener& listener) {
   PipelineResult result;
   StageLog log(result.stages, listener);
-  run_stages(std::move(scan), options, progress, log, result);
+  run_stages(std::move(scan), nullptr, options, progress, log, result);
   return result;
 }
 
@@ -352,13 +397,19 @@ PipelineResult run_pipeline(const PointCloud& cloud, const PipelineOptions& opti
   PipelineResult result;
   StageLog log(result.stages, listener);
   SurfaceMesh scan;
+  std::optional<SurfaceMesh> seen;
   log.run("reconstruct", [&](StageRecord& record) {
     ReconstructResult reconstructed = reconstruct(cloud, options.reconstruct, progress);
     describe(reconstructed, record);
     scan = std::move(reconstructed.surface);
+    if (reconstructed.gaps > 0 && !reconstructed.is_made_up.empty()) {
+      seen = SurfaceMesh{scan.vertices, {}};
+      for (std::size_t f = 0; f < scan.triangles.size(); ++f)
+        if (!reconstructed.is_made_up[f]) seen->triangles.push_back(scan.triangles[f]);
+    }
     result.outliers = std::move(reconstructed.outliers);
   });
-  run_stages(std::move(scan), options, progress, log, result);
+  run_stages(std::move(scan), seen ? &*seen : nullptr, options, progress, log, result);
   return result;
 }
 

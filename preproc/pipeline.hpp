@@ -27,7 +27,8 @@ namespace scan2fea {
 struct PipelineOptions {
   ReconstructOptions reconstruct;  // of a cloud
   std::optional<RepairOptions> repair = RepairOptions{};
-  std::optional<EnrichOptions> enrich;  // not by default: a scan that is dense enough needs none
+  std::optional<EnrichOptions> enrich;               // not by default: a scan that is dense enough needs none
+  std::optional<NamedSelection> enrich_domain = {};  // instead of its own domain: the vertices of what is selected
   std::optional<SimplifyOptions> simplify = SimplifyOptions{};
   std::optional<TetrahedralizeOptions> tetrahedralize = TetrahedralizeOptions{};
   int order = 1;  // 1: 4-node tetrahedra, 2: 10-node tetrahedra
@@ -65,7 +66,7 @@ struct PipelineResult {
   std::optional<std::size_t> measured_vertices;
   FeatureLines features;               // the scan's edges that simplification was to keep
   std::optional<TetMesh> volume_mesh;  // with the sets
-  std::vector<NamedSet> face_sets;     // of `surface`
+  std::vector<NamedSet> face_sets;     // of `surface`; after those asked for, what was made up (made_up.hpp)
   std::vector<MadeSet> sets;           // the same in figures
   std::vector<StageRecord> stages;
   std::vector<WeakPlace> weak_places;  // of what was made; none of them is unusable

@@ -399,6 +399,19 @@ TEST_F(Command, EnrichKeepsTheMeasuredPoints) {
   EXPECT_EQ(run_command("surface '" + scan + "' -o '" + path("s.ply") + "' --enrich --faces 500").exit_code, 0);
 }
 
+TEST_F(Command, EnrichesTheDomainOnly) {
+  const std::string scan = scan_of_a_sphere();
+  ASSERT_EQ(
+      run_command("enrich '" + scan + "' -o '" + path("half.ply") + "' --sampling-radius 0.4 --domain 'x<0'").exit_code,
+      0);
+  const SurfaceMesh before = read_surface(scan), after = read_surface(path("half.ply"));
+  ASSERT_GT(after.vertices.size(), before.vertices.size());
+  for (std::size_t v = before.vertices.size(); v < after.vertices.size(); ++v) EXPECT_LT(after.vertices[v].x(), 1e-9);
+  const CommandResult nothing = run_command("enrich '" + scan + "' -o '" + path("none.ply") + "' --domain 'x>1000'");
+  EXPECT_EQ(nothing.exit_code, 2);
+  EXPECT_THAT(nothing.standard_error, HasSubstr("nothing"));
+}
+
 TEST_F(Command, ObjectivesBelongToCollapse) {
   const std::string scan = scan_of_a_sphere();
   for (const std::string objective :

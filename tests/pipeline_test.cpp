@@ -2,6 +2,7 @@
 // were asked for.
 #include "preproc/pipeline.hpp"
 
+#include "preproc/made_up.hpp"
 #include "preproc/surface/kernel/adjacency.hpp"
 #include "quality/self_intersections.hpp"
 #include "quality/tetrahedron_measures.hpp"
@@ -163,6 +164,36 @@ TEST(Pipeline, WithoutTimeForImprovementsTheMeshIsValidAndItIsTold) {
 TEST(Pipeline, WithoutTimeForAMeshThereIsNone) {
   const auto end = Progress::Clock::now();
   EXPECT_THROW(run_pipeline(analytic::sphere(1, 3), {}, Progress().until(end)), OutOfTime);
+}
+
+TEST(Pipeline, WhatNoScannerSawIsASetOfItsOwn) {
+  // A box that was seen but for a square of 3 x 3 in the middle of its top.
+  const Vec3 size(12, 9, 6);
+  SurfaceMesh scan = analytic::box(size, 1);
+  const auto is_missing = [&](const Vec3& p) {
+    return p.z() > size.z() - 1e-9 && p.x() > 5 && p.x() < 8 && p.y() > 3 && p.y() < 6;
+  };
+  std::erase_if(scan.triangles, [&](const Triangle& t) {
+    return is_missing((scan.vertices[t[0]] + scan.vertices[t[1]] + scan.vertices[t[2]]) / 3);
+  });
+  PipelineOptions options;
+  options.simplify->size = FaceCount{2000};
+  const PipelineResult result = run_pipeline(scan, options);
+  ASSERT_EQ(result.face_sets.size(), 1U);
+  const NamedSet& filled = result.face_sets.front();
+  EXPECT_EQ(filled.name, filled_set);
+  double area = 0;
+  for (const std::uint32_t f : filled.members) {
+    const Triangle& t = result.surface.triangles[f];
+    const Vec3 middle =
+        (result.surface.vertices[t[0]] + result.surface.vertices[t[1]] + result.surface.vertices[t[2]]) / 3;
+    EXPECT_TRUE(is_missing(middle)) << middle.transpose();
+    area += area_vector(result.surface, t).norm() / 2;
+  }
+  EXPECT_NEAR(area, 9, 3) << "up to half a triangle along the border";
+  ASSERT_EQ(result.volume_mesh->face_sets.size(), 1U);
+  EXPECT_EQ(result.volume_mesh->face_sets.front().members.size(), filled.members.size());
+  EXPECT_TRUE(run_pipeline(analytic::box(size, 1), options).face_sets.empty());
 }
 
 TEST(Pipeline, SaysThatNothingIsOpenToBeThickened) {

@@ -11,7 +11,7 @@ SubCommand add_enrich(CLI::App& root) {
   add_common_flags(*app, job->common);
   add_output_flag(*app, job->output);
   add_time_limit_flag(*app, job->time_limit);
-  add_enrich_flags(*app, *job->pipeline.enrich);
+  add_enrich_flags(*app, *job->pipeline.enrich, job->enrich_domain);
   return {app, [job] { return make_mesh(*job); }};
 }
 

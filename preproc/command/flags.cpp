@@ -226,7 +226,7 @@ void add_repair_flags(CLI::App& command, RepairOptions& options) {
       ->type_name("BODIES");
 }
 
-void add_enrich_flags(CLI::App& command, EnrichOptions& options) {
+void add_enrich_flags(CLI::App& command, EnrichOptions& options, std::string& domain) {
   command
       .add_option_function<std::string>(
           "--scheme",
@@ -255,23 +255,9 @@ void add_enrich_flags(CLI::App& command, EnrichOptions& options) {
   command.add_flag("--primitives,!--no-primitives", options.primitives,
                    "Planes, cylinders, cones, spheres and tori of a part tell heights and creases");
   command
-      .add_option_function<std::vector<double>>(
-          "--enrich-ball",
-          [&options](const std::vector<double>& v) {
-            options.domain = Ball{.centre = {v[0], v[1], v[2]}, .radius = v[3]};
-          },
-          "Enrich within this ball only")
-      ->expected(4)
-      ->type_name("X Y Z R");
-  command
-      .add_option_function<std::vector<double>>(
-          "--enrich-box",
-          [&options](const std::vector<double>& v) {
-            options.domain = BoundingBox{.low = {v[0], v[1], v[2]}, .high = {v[3], v[4], v[5]}};
-          },
-          "Enrich within this box only")
-      ->expected(6)
-      ->type_name("X Y Z X Y Z");
+      .add_option("--domain", domain,
+                  "Enrich there only: an expression as for --set, such as \"ball(10,5,2, 8)\" or \"FACE_3\"")
+      ->type_name("EXPRESSION");
 }
 
 namespace {

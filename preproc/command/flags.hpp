@@ -63,7 +63,7 @@ void add_force_flag(CLI::App& command, bool& force);  // of all that take no com
 void add_size_flags(CLI::App& command, SizeFlags& flags);
 void add_reconstruct_flags(CLI::App& command, ReconstructOptions& options);
 void add_repair_flags(CLI::App& command, RepairOptions& options);
-void add_enrich_flags(CLI::App& command, EnrichOptions& options);
+void add_enrich_flags(CLI::App& command, EnrichOptions& options, std::string& domain);
 void add_simplify_flags(CLI::App& command, SimplifyOptions& options);
 void add_feature_angle_flag(CLI::App& command, FeatureOptions& features);
 void add_set_flag(CLI::App& command, std::vector<std::string>& sets);

@@ -128,7 +128,7 @@ void add_surface_flags(CLI::App& command, MakeMeshJob& job) {
   add_reconstruct_flags(command, job.pipeline.reconstruct);
   add_repair_flags(command, *job.pipeline.repair);
   command.add_flag("--enrich", job.enrich, "First add points where the scanner left too few (see scan2fea enrich)");
-  add_enrich_flags(command, job.enrich_options);
+  add_enrich_flags(command, job.enrich_options, job.enrich_domain);
   add_simplify_flags(command, *job.pipeline.simplify);
   add_feature_file_flags(command, job.features);
   add_set_flag(command, job.sets);
@@ -142,6 +142,8 @@ int make_mesh(MakeMeshJob job) {
   require_writable_outputs(job);
   const std::vector<Gate> gates = parse_gates(job.common);
   parse_sets(job);
+  if (!job.enrich_domain.empty())
+    job.pipeline.enrich_domain = parse_selection("domain=" + job.enrich_domain, job.common.unit.value_or(""));
 
   Scan scan = read_input(job);
   display.line(describe(scan, job.common));
@@ -188,9 +190,11 @@ int make_mesh(MakeMeshJob job) {
   } else if (is_surface_file(job.output)) {
     write_surface(result.surface, job.output, result.measured_vertices);
   } else {
-    write_surface(
-        NamedSurface{.mesh = result.surface, .node_sets = {}, .face_sets = {}, .unit = job.common.unit.value_or("")},
-        job.output, options);
+    write_surface(NamedSurface{.mesh = result.surface,
+                               .node_sets = {},
+                               .face_sets = result.face_sets,
+                               .unit = job.common.unit.value_or("")},
+                  job.output, options);
   }
   outputs.commit();
   ends_by_itself_now();

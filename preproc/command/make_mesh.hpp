@@ -20,6 +20,7 @@ struct MakeMeshJob {
   TakesClouds takes_clouds = TakesClouds::no;
   bool enrich = false;  // --enrich of the commands in which that stage is a choice
   EnrichOptions enrich_options;
+  std::string enrich_domain;  // an expression; empty: everywhere
   MshVersion msh_version = MshVersion::v4_1;
 };
 

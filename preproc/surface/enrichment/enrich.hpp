@@ -23,14 +23,9 @@
 
 #include <cstddef>
 #include <optional>
-#include <variant>
 #include <vector>
 
 namespace scan2fea {
-
-struct WholeSurface {};
-// The part of the surface that may be enriched.
-using EnrichDomain = std::variant<WholeSurface, BoundingBox, Ball>;
 
 struct EnrichOptions {
   // Section 2 of [1] as it is written, so far as that goes on a mesh: for comparison.
@@ -45,7 +40,8 @@ struct EnrichOptions {
   // exceeds what the mesh needs are enriched, and none where there are points enough.
   std::optional<double> sampling_radius = {};
 
-  EnrichDomain domain = WholeSurface{};
+  // Per vertex whether it may ask for points; new ones then lie between such vertices only. Not given: all may.
+  std::optional<std::vector<bool>> domain = {};
 
   // K of [1], 3 to 20: a point with more neighbours within R_s is content.
   std::size_t most_neighbours = 6;

@@ -28,13 +28,6 @@ constexpr double crease_deg = 60;
 // Measured points whose side turns more than 60 degrees from the new point's tangent plane tell nothing of its height.
 constexpr double smallest_sample_cosine = 0.5;
 
-bool holds(const EnrichDomain& domain, const Vec3& p) {
-  if (const auto* box = std::get_if<BoundingBox>(&domain))
-    return (p.array() >= box->low.array()).all() && (p.array() <= box->high.array()).all();
-  if (const auto* ball = std::get_if<Ball>(&domain)) return (p - ball->centre).norm() <= ball->radius;
-  return true;
-}
-
 double area_of(const HalfedgeMesh& mesh) {
   double area = 0;
   for (Index f = 0; f < mesh.face_slots(); ++f)
@@ -54,8 +47,7 @@ class Inserter {
         importance_(mesh_, normals_),
         original_(original) {
     done_.first = static_cast<Index>(mesh_.vertex_slots());
-    for (Index v = 0; v < mesh_.vertex_slots(); ++v)
-      if (mesh_.is_alive(v) && holds(options.domain, mesh_.points[v])) domain_.push_back(v);
+    mark_domain();
     const double area = area_of(mesh_);
     radius_ = options.sampling_radius ? *options.sampling_radius : default_radius(area);
     requests_.assign(mesh_.vertex_slots(), 0);
@@ -101,6 +93,21 @@ class Inserter {
   }
 
  private:
+  // A vertex that a crease was cut at belongs to the domain if a measured one beside it does.
+  void mark_domain() {
+    in_domain_.assign(mesh_.vertex_slots(), !options_.domain.has_value());
+    if (options_.domain) {
+      for (Index v = 0; v < original_; ++v) in_domain_[v] = (*options_.domain)[v];
+      for (Index v = original_; v < mesh_.vertex_slots(); ++v)
+        if (mesh_.is_alive(v))
+          mesh_.for_each_neighbour(v, [&](Index w) {
+            if (w < original_ && in_domain_[w]) in_domain_[v] = true;
+          });
+    }
+    for (Index v = 0; v < mesh_.vertex_slots(); ++v)
+      if (mesh_.is_alive(v) && in_domain_[v]) domain_.push_back(v);
+  }
+
   // Where half of the points crowd in a small part of the surface the median tells about that part alone; as many
   // points spread evenly, in equilateral triangles, would have the other spacing.
   double default_radius(double area) {
@@ -154,7 +161,9 @@ class Inserter {
     const Triangle t = mesh_.triangle(base.face);
     const Vec3 point = position(mesh_, base);
     const Vec3 normal = normal_at(base);
-    if (!holds(options_.domain, point) || !has_room(t, point, normal, HalfedgeMesh::none)) return false;
+    if (!std::ranges::all_of(t, [&](Index w) { return in_domain_[w]; }) ||
+        !has_room(t, point, normal, HalfedgeMesh::none))
+      return false;
 
     const bool on_crease = on_edge && (labels_.is_crease(edge) || normals_.is_crease(mesh_, edge));
     const LabelSet labels =
@@ -173,6 +182,7 @@ class Inserter {
     done_.on_crease.push_back(on_crease);
     requests_.push_back(0);
     domain_.push_back(v);
+    in_domain_.push_back(true);
     ++done_.result.added;
     const double farthest = farthest_move(t);
     restore_delaunay(mesh_, v, flip_limits_);
@@ -377,7 +387,8 @@ class Inserter {
   std::size_t most_new_vertices_ = 0;  // the option, or twice what packing leaves room for
   DelaunayFlipLimits flip_limits_;
   std::vector<std::uint8_t> requests_;
-  std::vector<Index> domain_;
+  std::vector<bool> in_domain_;  // per vertex
+  std::vector<Index> domain_;    // the same as a list
   std::vector<SurfaceSample> samples_;
   Insertion done_;
 };

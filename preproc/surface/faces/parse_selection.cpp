@@ -330,7 +330,7 @@ void check_name(const std::string& name) {
                       .value = name,
                       .limit = "a letter, then letters, digits, _ and -, 64 in all",
                       .advice = "--set \"fixed=FACE_3\""});
-  for (const std::string_view taken : {"nall", "eall", "sall", "sall_nodes"})
+  for (const std::string_view taken : {"nall", "eall", "sall", "sall_nodes", "filled", "enriched"})
     if (lower(name) == taken)
       throw WrongUsage({.what = "every file has a set of this name already",
                         .where = "--set",

@@ -115,8 +115,12 @@ ReconstructResult reconstruct(const PointCloud& cloud, const ReconstructOptions&
   find_bridges(points, spacing, found.triangles, result);
   result.surface = {std::move(points), std::move(found.triangles)};
   drop_unused_vertices(result.surface);
+  result.is_made_up = std::move(found.is_made_up);
   result.kept = result.surface.vertices.size();
-  if (options.method == ReconstructionMethod::poisson) take_poisson(result, progress);
+  if (options.method == ReconstructionMethod::poisson) {
+    take_poisson(result, progress);
+    result.is_made_up.clear();
+  }
   progress("reconstruction", 0.95);
   result.distances = measure_point_distances(cloud.points, result.surface, result.outliers);
   return result;

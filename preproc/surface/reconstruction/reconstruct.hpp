@@ -51,21 +51,22 @@ struct Bridge {
 struct ReconstructResult {
   SurfaceMesh surface;  // vertices are points of the cloud, but of Poisson; closed and oriented outwards
 
-  std::size_t kept = 0;         // points that the surface goes through, or by, before Poisson
-  std::size_t repeated = 0;     // points in the place of others
-  std::size_t thinned = 0;      // left out since a neighbour stays
-  std::size_t merged = 0;       // nearer to another than noise
-  std::vector<Vec3> outliers;   // left out: no surface through their neighbours holds them; where there are more than
-                                // corners look like, those off the surface, too
-  std::size_t gaps = 0;         // patches that close what no front does
-  double made_up_area = 0;      // of them
-  std::size_t off_surface = 0;  // points that were kept, but lie off the surface by half of the spacing
-  double cell = 0;              // of the grid by which was thinned; 0: it was not
-  double noise = 0;             // of single points: an estimate
-  double spacing = 0;           // of the points that stayed: median
-  PointDistances distances;     // of the given points without outliers from the surface
-  std::vector<Bridge> bridges;  // longest first
-  std::string choice;           // which surface was taken, and why
+  std::size_t kept = 0;          // points that the surface goes through, or by, before Poisson
+  std::size_t repeated = 0;      // points in the place of others
+  std::size_t thinned = 0;       // left out since a neighbour stays
+  std::size_t merged = 0;        // nearer to another than noise
+  std::vector<Vec3> outliers;    // left out: no surface through their neighbours holds them; where there are more than
+                                 // corners look like, those off the surface, too
+  std::size_t gaps = 0;          // patches that close what no front does
+  double made_up_area = 0;       // of them
+  std::vector<bool> is_made_up;  // per triangle of the surface: it closes a gap; empty for Poisson
+  std::size_t off_surface = 0;   // points that were kept, but lie off the surface by half of the spacing
+  double cell = 0;               // of the grid by which was thinned; 0: it was not
+  double noise = 0;              // of single points: an estimate
+  double spacing = 0;            // of the points that stayed: median
+  PointDistances distances;      // of the given points without outliers from the surface
+  std::vector<Bridge> bridges;   // longest first
+  std::string choice;            // which surface was taken, and why
 };
 
 // The cloud is cleaned (clean_cloud.hpp); advancing fronts of several settings and what they agree on are each made a
