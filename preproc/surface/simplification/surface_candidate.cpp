@@ -297,39 +297,54 @@ Candidate by_collapse(const PreparedScanPointer& scan, double faces, const Simpl
   return candidate;
 }
 
-// The scan without creases that come near the places where a surface failed: the short ones whole, or of all the piece
-// that does.
-PreparedScanPointer without_short_creases(const Candidate& failed, double reach) {
+// The scan without the short creases near the places where a surface failed.
+PreparedScanPointer without_short_creases(const Candidate& failed) {
   constexpr double longest = 0.5;  // of a body's diagonal: the folds of a scan, not the edges of a part
+  constexpr double reach = 2;      // mean edges
   const PreparedScan& scan = *failed.scan;
-  return with_creases(failed.scan, without_short_creases_near(scan.mesh, scan.creases(), failed.failed_at, reach,
+  const double edge = equilateral_edge(surface_area(failed.mesh), static_cast<double>(failed.faces()));
+  return with_creases(failed.scan, without_short_creases_near(scan.mesh, scan.creases(), failed.failed_at, reach * edge,
                                                               longest * body_sizes(scan.mesh).largest));
 }
 
-PreparedScanPointer without_pieces(const Candidate& failed, double reach) {
+// The same without all creases that come so near: of long ones, the pieces there.
+PreparedScanPointer without_pieces(const Candidate& failed) {
+  constexpr double reach = 2;  // mean edges
   const PreparedScan& scan = *failed.scan;
-  return with_creases(failed.scan, without_creases_near(scan.mesh, scan.creases(), failed.failed_at, reach));
+  const double edge = equilateral_edge(surface_area(failed.mesh), static_cast<double>(failed.faces()));
+  return with_creases(failed.scan, without_creases_near(scan.mesh, scan.creases(), failed.failed_at, reach * edge));
 }
 
 // Where the lattice failed with creases since triangles of the wanted size are too large for them: without the short
-// ones around, without the pieces of others there, or without any.
-Candidate with_fewer_creases(Candidate failed, const SizingOptions& sizing, const FitPlan& plan,
-                             const Progress& progress) {
-  constexpr int most_trials = 4;
-  constexpr double reach = 2;               // mean edges
+// ones around, with smaller triangles, or without any. Restored creases run through places that no scanner saw: there
+// pieces of long ones go, too, and the number of triangles stays.
+Candidate with_fewer_creases(Candidate failed, SizingOptions sizing, const SimplifyOptions& options,
+                             const FitPlan& plan, const Progress& progress) {
+  constexpr int most_trials = 3;
+  const bool restored = options.may_drop_given;
+  // Times: a free form is itself without creases, too.
+  const int most_larger = is_part(failed.scan->given) && !restored ? 1 : 0;
+  constexpr double growth = 1.6;            // of the number of triangles
   constexpr std::size_t many_failed = 100;  // places; of few, some may be gone by chance
+  const double wanted = sizing.triangles;
   PreparedScanPointer scan = failed.scan;
-  const double edge = equilateral_edge(surface_area(scan->mesh), sizing.triangles);
-  for (int trial = 0; trial < most_trials && failed.scan->has_creases(); ++trial) {
-    scan = without_short_creases(failed, reach * edge);
-    if (scan == failed.scan) scan = without_pieces(failed, reach * edge);
-    if (scan == failed.scan) break;
+  int larger = 0;
+  for (int trial = 0;; ++trial) {
+    PreparedScanPointer fewer = without_short_creases(failed);
+    if (fewer == scan && restored) fewer = without_pieces(failed);
+    if (fewer == scan) {
+      if (larger++ == most_larger) break;
+      sizing.triangles *= growth;
+    }
+    scan = fewer;
+    if (trial == most_trials || !scan->has_creases()) break;
     const std::size_t before = failed.failed_at.size();
     failed = best_by_lattice(scan, sizing, plan, progress);
     if (failed.failure.empty()) return failed;
     // Where hardly fewer places fail, those that are left would fail again.
     if (2 * failed.failed_at.size() > before && before > many_failed) break;
   }
+  sizing.triangles = wanted;
   return best_by_lattice(with_creases(scan, {}), sizing, plan, progress);
 }
 
@@ -368,7 +383,7 @@ Candidate make_surface(const PreparedScanPointer& scan, const SizingOptions& siz
       }
   }
   if (!failed) return candidate;
-  if (scan->has_creases()) candidate = with_fewer_creases(std::move(candidate), sizing, plan, progress);
+  if (scan->has_creases()) candidate = with_fewer_creases(std::move(candidate), sizing, options, plan, progress);
   if (!candidate.failure.empty() && ways.contraction) {
     Candidate contracted = by_contraction(candidate.scan, sizing, plan, progress);
     contracted.fallback_reason = std::move(candidate.failure);
