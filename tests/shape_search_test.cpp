@@ -107,5 +107,22 @@ TEST(NarrowCorners, LoseTheSmootherCreaseUntilTheOtherIsFarEnough) {
   EXPECT_LT(end.cross(other).norm(), edge);
 }
 
+TEST(CreasesNearPlaces, LoseTheEdgesThatComeNearAndKeepTheRest) {
+  const SurfaceMesh mesh = fan();
+  std::vector<FeatureEdge> creases;
+  for (const std::uint32_t ray : {0u, 2u})
+    for (const FeatureEdge& e : ray_of_fan(ray)) creases.push_back(e);
+  std::sort(creases.begin(), creases.end());
+  const Vec3 place = mesh.vertices[points_a_ray];  // the end of the first ray
+  const double reach = 0.25 * place.norm();
+  const std::vector<FeatureEdge> left = without_creases_near(mesh, creases, {place}, reach);
+  EXPECT_LT(left.size(), creases.size());
+  for (const FeatureEdge& e : creases) {
+    const bool near = (mesh.vertices[e[0]] - place).norm() < reach || (mesh.vertices[e[1]] - place).norm() < reach;
+    EXPECT_EQ(std::binary_search(left.begin(), left.end(), e), !near);
+  }
+  EXPECT_EQ(without_creases_near(mesh, creases, {}, reach), creases);
+}
+
 }  // namespace
 }  // namespace scan2fea

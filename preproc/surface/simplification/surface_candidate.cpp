@@ -307,17 +307,17 @@ PreparedScanPointer without_short_creases(const Candidate& failed) {
                                                               longest * body_sizes(scan.mesh).largest));
 }
 
-// The same without all creases that come so near: of long ones, the pieces there.
-PreparedScanPointer without_pieces(const Candidate& failed) {
-  constexpr double reach = 2;  // mean edges
+// The same without all creases that come within so many mean edges: of long ones, the pieces there.
+PreparedScanPointer without_pieces(const Candidate& failed, const std::vector<Vec3>& places, double reach) {
   const PreparedScan& scan = *failed.scan;
   const double edge = equilateral_edge(surface_area(failed.mesh), static_cast<double>(failed.faces()));
-  return with_creases(failed.scan, without_creases_near(scan.mesh, scan.creases(), failed.failed_at, reach * edge));
+  return with_creases(failed.scan, without_creases_near(scan.mesh, scan.creases(), places, reach * edge));
 }
 
 // Where the lattice failed with creases since triangles of the wanted size are too large for them: without the short
-// ones around, with smaller triangles, or without any. Restored creases run through places that no scanner saw: there
-// pieces of long ones go, too, and the number of triangles stays.
+// ones around, with smaller triangles, or without any. Restored creases run through places that no scanner saw: of
+// these the pieces near all places that have failed so far go, farther around with each trial, and the number of
+// triangles stays.
 Candidate with_fewer_creases(Candidate failed, SizingOptions sizing, const SimplifyOptions& options,
                              const FitPlan& plan, const Progress& progress) {
   constexpr int most_trials = 3;
@@ -328,10 +328,12 @@ Candidate with_fewer_creases(Candidate failed, SizingOptions sizing, const Simpl
   constexpr std::size_t many_failed = 100;  // places; of few, some may be gone by chance
   const double wanted = sizing.triangles;
   PreparedScanPointer scan = failed.scan;
+  std::vector<Vec3> places;  // that failed so far
   int larger = 0;
   for (int trial = 0;; ++trial) {
-    PreparedScanPointer fewer = without_short_creases(failed);
-    if (fewer == scan && restored) fewer = without_pieces(failed);
+    places.insert(places.end(), failed.failed_at.begin(), failed.failed_at.end());
+    const PreparedScanPointer fewer =
+        restored ? without_pieces(failed, places, 2 + 2 * trial) : without_short_creases(failed);
     if (fewer == scan) {
       if (larger++ == most_larger) break;
       sizing.triangles *= growth;
