@@ -1,9 +1,10 @@
 // Scans any closed surface in the computer (scanner.hpp):
 //
-//   make_cloud SURFACE OUT [--points N] [--positions N] [--noise PERCENT] [--outliers PERCENT] [--patches N] [--seed N]
-//              [--normals]
+//   make_cloud SURFACE OUT [--points N] [--positions N] [--noise PERCENT] [--outliers PERCENT]
+//              [--outlier-kind view|near|box] [--patches N] [--seed N] [--normals]
 //
-// Percentages: the noise of the diagonal, the outliers of the points; --patches are places in which few points stay.
+// Percentages: the noise of the diagonal, the outliers of the points, which lie along the view, nearer to the surface,
+// or anywhere in its box; --patches are places in which few points stay.
 // OUT is XYZ: x y z, with --normals the normal, and 1 for an outlier, else 0. For one as large and bad as scans are:
 //
 //   make_cloud horse.ply cloud.xyz --points 2000000 --noise 0.05 --outliers 1 --patches 8
@@ -41,7 +42,7 @@ void write(const ScannedCloud& scanned, bool with_normals, const std::string& pa
 int usage() {
   std::fprintf(stderr,
                "usage: make_cloud SURFACE OUT [--points N] [--positions N] [--noise PERCENT] [--outliers PERCENT]\n"
-               "                  [--patches N] [--seed N] [--normals]\n");
+               "                  [--outlier-kind view|near|box] [--patches N] [--seed N] [--normals]\n");
   return 2;
 }
 
@@ -50,6 +51,9 @@ int usage() {
 int main(int argc, char** argv) {
   std::map<std::string, double> value{{"--points", 50'000}, {"--positions", 6}, {"--noise", 0},
                                       {"--outliers", 0},    {"--patches", 0},   {"--seed", 1}};
+  const std::map<std::string, OutlierKind> kinds{
+      {"view", OutlierKind::along_view}, {"near", OutlierKind::near_surface}, {"box", OutlierKind::in_box}};
+  OutlierKind kind = OutlierKind::along_view;
   bool with_normals = false;
   if (argc < 3) return usage();
   for (int i = 3; i < argc; ++i) {
@@ -58,8 +62,15 @@ int main(int argc, char** argv) {
       with_normals = true;
       continue;
     }
+    if (i + 1 == argc) return usage();
+    if (name == "--outlier-kind") {
+      const auto found = kinds.find(argv[++i]);
+      if (found == kinds.end()) return usage();
+      kind = found->second;
+      continue;
+    }
     char* end = nullptr;
-    if (!value.contains(name) || i + 1 == argc) return usage();
+    if (!value.contains(name)) return usage();
     value[name] = std::strtod(argv[++i], &end);
     if (*end != '\0' || !(value[name] >= 0 && value[name] <= 1e8)) return usage();
   }
@@ -69,6 +80,7 @@ int main(int argc, char** argv) {
                                              .positions = static_cast<int>(value["--positions"]),
                                              .noise = value["--noise"] / 100,
                                              .outliers = value["--outliers"] / 100,
+                                             .outlier_kind = kind,
                                              .thinned_patches = static_cast<int>(value["--patches"]),
                                              .seed = static_cast<std::uint64_t>(value["--seed"])});
     write(scanned, with_normals, argv[2]);

@@ -108,9 +108,9 @@ class Scanner {
  public:
   Scanner(const SurfaceMesh& surface, const ScannerOptions& options)
       : surface_(surface), options_(options), generator_(options.seed) {
-    const BoundingBox box = bounding_box(surface.vertices);
-    centre_ = 0.5 * (box.low + box.high);
-    diagonal_ = box.diagonal();
+    box_ = bounding_box(surface.vertices);
+    centre_ = 0.5 * (box_.low + box_.high);
+    diagonal_ = box_.diagonal();
     turn_ = enclosed_volume(surface) < 0 ? -1 : 1;
     place_views();
     thin_patches();
@@ -184,6 +184,11 @@ class Scanner {
     return all;
   }
 
+  // Of the diagonal, from a random number of 0 to 1.
+  double outlier_distance(double random) const {
+    return options_.outlier_kind == OutlierKind::near_surface ? 0.005 + 0.01 * random : 0.01 + 0.03 * random;
+  }
+
   // Any of them, in their order.
   void keep_some(std::vector<Measured>& all) {
     if (all.size() <= options_.points) return;
@@ -199,8 +204,11 @@ class Scanner {
     for (const Measured& m : all) {
       const bool is_outlier = any(generator_) < options_.outliers;
       const double side = any(generator_) < 0.5 ? -1 : 1;
-      const double off = is_outlier ? side * (0.01 + 0.03 * any(generator_)) : options_.noise * noise(generator_);
-      result.cloud.points.push_back(views_[m.view].position() + (m.distance + off * diagonal_) * m.ray);
+      const double off = is_outlier ? side * outlier_distance(any(generator_)) : options_.noise * noise(generator_);
+      Vec3 place = views_[m.view].position() + (m.distance + off * diagonal_) * m.ray;
+      if (is_outlier && options_.outlier_kind == OutlierKind::in_box)
+        for (Eigen::Index k = 0; k < 3; ++k) place[k] = std::lerp(box_.low[k], box_.high[k], any(generator_));
+      result.cloud.points.push_back(place);
       result.cloud.normals.push_back(outwards(m.triangle));
       result.cloud.scanners.push_back(views_[m.view].position());
       result.is_outlier.push_back(is_outlier);
@@ -211,6 +219,7 @@ class Scanner {
   const SurfaceMesh& surface_;
   const ScannerOptions& options_;
   std::mt19937_64 generator_;
+  BoundingBox box_;
   Vec3 centre_ = Vec3::Zero();
   double diagonal_ = 0;
   double turn_ = 1;  // of normals, where they are given inwards

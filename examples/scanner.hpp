@@ -10,12 +10,19 @@
 
 namespace scan2fea {
 
+enum class OutlierKind {
+  along_view,    // 1 to 4 % of the diagonal before or behind the surface
+  near_surface,  // 0.5 to 1.5 %: at few points no farther than these are from one another
+  in_box,        // anywhere in the bounding box
+};
+
 struct ScannerOptions {
   std::size_t points = 50'000;
-  int positions = 6;        // of the scanner, about the part: its sides first, then between them
-  double line_ratio = 2;    // distance of scan lines over that of points along them
-  double noise = 0;         // standard deviation along the view, of the diagonal
-  double outliers = 0;      // share of points
+  int positions = 6;      // of the scanner, about the part: its sides first, then between them
+  double line_ratio = 2;  // distance of scan lines over that of points along them
+  double noise = 0;       // standard deviation along the view, of the diagonal
+  double outliers = 0;    // share of points
+  OutlierKind outlier_kind = OutlierKind::along_view;
   int thinned_patches = 0;  // balls of 5 to 11 % of the diagonal in which few points stay
   double thinned_to = 0.2;  // share of points that stay there
   double grazing = 0.2;     // no return where the cosine between view and normal is less
@@ -24,7 +31,7 @@ struct ScannerOptions {
 
 struct ScannedCloud {
   PointCloud cloud;              // with the true normals, and the scanner of each point
-  std::vector<bool> is_outlier;  // 1 to 4 % of the diagonal before or behind the surface
+  std::vector<bool> is_outlier;  // of each point
 };
 
 // Each position sees the part in perspective, along lines that are neither even nor aligned with it; what is hidden is

@@ -9,7 +9,7 @@
 #include "preproc/mesh/read_cloud.hpp"
 #include "preproc/mesh/read_surface.hpp"
 #include "preproc/mesh/splitmix64.hpp"
-#include "preproc/surface/reconstruction/point_neighbours.hpp"
+#include "preproc/surface/kernel/point_neighbours.hpp"
 #include "quality/triangle_tree.hpp"
 
 #include <algorithm>
