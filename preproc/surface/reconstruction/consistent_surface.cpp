@@ -49,6 +49,21 @@ class Search {
   Search(const std::vector<Vec3>& points, const std::vector<double>& spacing, const Progress& progress)
       : points_(points), spacing_(spacing), progress_(progress) {}
 
+  // Instead of fronts, a surface through most of the points.
+  ConsistentSurface run_again(const ConsistentSurface& before) {
+    cells_ = Delaunay(points_, spacing_).cells();
+    for (std::size_t i = 0; i < before.triangles.size(); ++i) {
+      Triangle t = before.triangles[i];
+      std::ranges::sort(t);
+      if (!before.is_made_up[i]) supported_.insert(t);
+    }
+    fronts_.push_back(wind(points_, cells_, before.triangles));
+    add_candidate(before.choice, {&fronts_[0]});
+    if (candidates_.empty()) return {};
+    join_best();
+    return choose();
+  }
+
   ConsistentSurface run() {
     make_fronts();
     std::vector<const WoundSurface*> all;
@@ -167,6 +182,11 @@ double length_in_spacings(const std::vector<Vec3>& points, const std::vector<dou
     widest = std::max(widest, spacing[t[k]]);
   }
   return longest / widest;
+}
+
+ConsistentSurface renew_surface(const std::vector<Vec3>& points, const std::vector<double>& spacing,
+                                const ConsistentSurface& before, const Progress& progress) {
+  return Search(points, spacing, progress).run_again(before);
 }
 
 ConsistentSurface find_consistent_surface(const std::vector<Vec3>& points, const std::vector<double>& spacing,

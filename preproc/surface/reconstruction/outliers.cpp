@@ -1,6 +1,7 @@
 #include "preproc/surface/reconstruction/outliers.hpp"
 
 #include "preproc/mesh/median.hpp"
+#include "preproc/mesh/union_find.hpp"
 #include "preproc/surface/kernel/parallel_blocks.hpp"
 #include "preproc/surface/kernel/point_neighbours.hpp"
 #include "preproc/surface/reconstruction/local_plane.hpp"
@@ -94,18 +95,45 @@ void Pass::find_distances() {
   });
 }
 
+// Points about in space, a few together at most, far from all others: whatever planes they lie in.
+std::vector<bool> find_stray_points(const std::vector<Vec3>& points) {
+  constexpr double near = 4;         // typical spacings: what is sampled so much less by area is no surface any more
+  constexpr std::size_t crowd = 20;  // a body of fewer points has no shape
+  const PointNeighbours neighbours(points);
+  const double reach = near * median(point_spacing(points, neighbours));
+  std::vector<std::array<std::uint32_t, candidates>> beside(points.size());
+  for_each_block(points.size(), [&](std::size_t first, std::size_t last) {
+    std::array<Neighbour, candidates> found;
+    for (std::size_t i = first; i < last; ++i) {
+      beside[i].fill(static_cast<std::uint32_t>(i));
+      const auto near_by = neighbours.nearest(points[i], found);
+      for (std::size_t k = 0; k < near_by.size() && near_by[k].distance < reach; ++k) beside[i][k] = near_by[k].point;
+    }
+  });
+  UnionFind groups(points.size());
+  for (std::uint32_t i = 0; i < points.size(); ++i)
+    for (const std::uint32_t j : beside[i]) groups.unite(i, j);
+  std::vector<std::size_t> count(points.size());
+  for (std::uint32_t i = 0; i < points.size(); ++i) ++count[groups.find(i)];
+  std::vector<bool> is_stray(points.size());
+  for (std::uint32_t i = 0; i < points.size(); ++i) is_stray[i] = count[groups.find(i)] < crowd;
+  return is_stray;
+}
+
 // Outliers are few and far between; where many neighbours of a point are said to be some, the points are too few for
-// what they show, as on a thin leg.
-std::vector<bool> without_crowds(const std::vector<Vec3>& points, const std::vector<bool>& is_outlier) {
+// what they show, as on a thin leg. What is `isolated` is so whatever its neighbours are.
+std::vector<bool> without_crowds(const std::vector<Vec3>& points, const std::vector<bool>& is_outlier,
+                                 const std::vector<bool>& isolated) {
   constexpr std::size_t crowd = 2;  // of the neighbours
   const PointNeighbours neighbours(points);
   std::vector<char> stays(points.size());
   for_each_block(points.size(), [&](std::size_t first, std::size_t last) {
     std::array<Neighbour, candidates + 1> near;
     for (std::size_t i = first; i < last; ++i) {
-      if (!is_outlier[i]) continue;
+      if (!is_outlier[i] || isolated[i]) continue;
       std::size_t count = 0;
-      for (const Neighbour& n : neighbours.nearest(points[i], near)) count += n.point != i && is_outlier[n.point];
+      for (const Neighbour& n : neighbours.nearest(points[i], near))
+        count += n.point != i && is_outlier[n.point] && !isolated[n.point];
       stays[i] = count >= crowd;
     }
   });
@@ -125,7 +153,9 @@ OutlierSearch find_outliers(const std::vector<Vec3>& points) {
   constexpr double of_noise = 5, near = 0.28, far = 0.7, telling_share = 0.003, isolated = 5;
   constexpr std::size_t fewest = 4 * candidates;  // fewer say nothing about what is usual
   OutlierSearch result;
-  result.is_outlier.resize(points.size());
+  if (points.size() < fewest) return {};
+  const std::vector<bool> is_stray = find_stray_points(points);
+  result.is_outlier = is_stray;
   for (int pass = 0; pass < 2; ++pass) {
     if (static_cast<std::size_t>(std::ranges::count(result.is_outlier, false)) < fewest) return {};
     const Pass found(points, result.is_outlier);
@@ -136,10 +166,12 @@ OutlierSearch find_outliers(const std::vector<Vec3>& points) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < points.size(); ++i) count += is_beyond(i, far);
     result.has_outliers = static_cast<double>(count) > telling_share * static_cast<double>(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i)
-      result.is_outlier[i] =
-          is_beyond(i, result.has_outliers ? near : far) || found.isolation[i] > isolated * found.spacing[i];
-    result.is_outlier = without_crowds(points, result.is_outlier);
+    std::vector<bool> is_alone = is_stray;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      is_alone[i] = is_stray[i] || found.isolation[i] > isolated * found.spacing[i];
+      result.is_outlier[i] = is_alone[i] || is_beyond(i, result.has_outliers ? near : far);
+    }
+    result.is_outlier = without_crowds(points, result.is_outlier, is_alone);
   }
   return result;
 }

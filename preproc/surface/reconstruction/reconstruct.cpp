@@ -8,6 +8,7 @@
 #include "preproc/surface/reconstruction/clean_cloud.hpp"
 #include "preproc/surface/reconstruction/consistent_surface.hpp"
 #include "preproc/surface/reconstruction/poisson.hpp"
+#include "preproc/surface/reconstruction/surface_outliers.hpp"
 #include "preproc/surface/reconstruction/surface_patches.hpp"
 
 #include <algorithm>
@@ -87,6 +88,41 @@ void take_poisson(ReconstructResult& result, const Progress& progress) {
   result.choice = "Poisson's surface, asked for, with normals of " + result.choice;
 }
 
+// Points go to the outliers, or come back from there, and the surface is made again.
+void look_again(ConsistentSurface& found, std::vector<Vec3>& points, std::vector<double>& spacing,
+                std::vector<Vec3>& outliers, const Progress& progress) {
+  std::vector<Vec3> all = points;
+  all.insert(all.end(), outliers.begin(), outliers.end());
+  const std::vector<bool> is_outlier = find_surface_outliers({points, found.triangles}, all, progress);
+  bool is_changed = false;
+  for (std::size_t i = 0; i < all.size(); ++i) is_changed = is_changed || is_outlier[i] != (i >= points.size());
+  if (!is_changed) return;
+  points.clear();
+  outliers.clear();
+  std::vector<std::uint32_t> number(all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    number[i] = static_cast<std::uint32_t>(points.size());
+    (is_outlier[i] ? outliers : points).push_back(all[i]);
+  }
+  spacing = point_spacing(points, PointNeighbours(points));
+  // Where points are few, fronts go another way for one of them.
+  constexpr std::size_t few = 20'000;
+  if (points.size() < few) {
+    found = find_consistent_surface(points, spacing, progress);
+    return;
+  }
+  ConsistentSurface before;
+  before.choice = std::move(found.choice);
+  for (std::size_t f = 0; f < found.triangles.size(); ++f) {
+    Triangle t = found.triangles[f];
+    if (std::ranges::any_of(t, [&](std::uint32_t v) { return is_outlier[v]; })) continue;
+    for (std::uint32_t& v : t) v = number[v];
+    before.triangles.push_back(t);
+    before.is_made_up.push_back(found.is_made_up[f]);
+  }
+  found = renew_surface(points, spacing, before, progress);
+}
+
 }  // namespace
 
 ReconstructResult reconstruct(const PointCloud& cloud, const ReconstructOptions& options, const Progress& progress) {
@@ -99,10 +135,10 @@ ReconstructResult reconstruct(const PointCloud& cloud, const ReconstructOptions&
   result.cell = cleaned.cell;
   result.noise = cleaned.noise;
   std::vector<Vec3> points = std::move(cleaned.points);
-  const std::vector<double> spacing = point_spacing(points, PointNeighbours(points));
-  result.spacing = median(spacing);
-
+  std::vector<double> spacing = point_spacing(points, PointNeighbours(points));
   ConsistentSurface found = find_consistent_surface(points, spacing, progress);
+  if (cleaned.has_outliers) look_again(found, points, spacing, result.outliers, progress);
+  result.spacing = median(spacing);
   const std::vector<SurfacePatch> gaps = find_patches(points, found.triangles, found.is_made_up);
   require_solid(found, points.size());
   require_small_gaps(gaps, bounding_box(points), options.largest_gap_of_diagonal);
