@@ -3,6 +3,8 @@
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/error_text.hpp"
 #include "preproc/surface/kernel/components.hpp"
+#include "preproc/surface/primitives/find_primitives.hpp"
+#include "preproc/surface/reconstruction/cell_sides.hpp"
 #include "preproc/surface/reconstruction/delaunay.hpp"
 #include "preproc/surface/reconstruction/minimum_cut.hpp"
 #include "quality/triangle_tree.hpp"
@@ -81,10 +83,54 @@ class Search {
                          .limit = {},
                          .advice = "a scan of all sides of the part"});
     join_best();
+    hold_against_shapes();
     return choose();
   }
 
  private:
+  // What lies on one shape, or between what is known to be inside and what outside, is not made up.
+  void support_by_shapes(const std::vector<Triangle>& triangles, const std::vector<CellSide>& known,
+                         const Primitives& found) {
+    std::set<Triangle> between;
+    for (std::uint32_t cell = 0; cell < known.size(); ++cell)
+      for (std::size_t k = 0; k < 4 && known[cell] == CellSide::inside; ++k) {
+        if (known[cells_.neighbours[cell][k]] != CellSide::outside) continue;
+        Triangle t = cells_.facet(cell, k);
+        std::ranges::sort(t);
+        between.insert(t);
+      }
+    for (Triangle t : triangles) {
+      const std::uint32_t label = found.labels[t[0]];
+      std::ranges::sort(t);
+      const bool is_on_one =
+          label != no_primitive && std::ranges::all_of(t, [&](auto v) { return found.labels[v] == label; });
+      if (is_on_one || between.contains(t)) supported_.insert(t);
+    }
+  }
+
+  // On a part the best once more, by what its shapes say.
+  void hold_against_shapes() {
+    constexpr std::size_t few = 20'000;  // beyond, fronts go astray no more
+    if (points_.size() > few) return;
+    const Candidate& best = *std::ranges::min_element(candidates_, {}, &Candidate::faults);
+    const Primitives found = find_primitives({points_, best.surface.triangles}, {}, progress_);
+    if (found.kind != ScanKind::part) return;
+    const std::vector<CellSide> known = sides_by_shapes(points_, cells_, found);
+    Candidate shaped{.surface = {}, .name = best.name + " held against its shapes", .fronts = best.fronts};
+    shaped.surface.triangles = cut_surface(points_, spacing_, cells_, best.fronts, known);
+    if (shaped.surface.triangles.empty()) return;
+    measure(shaped.surface);
+    support_by_shapes(shaped.surface.triangles, known, found);
+    if (std::getenv("DBG")) {
+      size_t in = 0, out = 0;
+      for (auto k : known) in += k == CellSide::inside, out += k == CellSide::outside;
+      fprintf(stderr, "known in %zu out %zu of %zu; faults %zu -> %zu; tri %zu -> %zu\n", in, out, known.size(),
+              best.faults(), shaped.faults(), best.surface.triangles.size(), shaped.surface.triangles.size());
+    }
+    candidates_.clear();
+    candidates_.push_back(std::move(shaped));
+  }
+
   void make_fronts() {
     constexpr std::size_t few = 50'000;  // beyond, the time of more fronts is better spent elsewhere
     betas_ = points_.size() < few ? std::vector{0.3, 0.52, 0.7, 0.9} : std::vector{0.52, 0.9};

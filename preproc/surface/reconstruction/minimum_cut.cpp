@@ -66,9 +66,11 @@ class Cut {
     }
   }
 
-  std::vector<Triangle> run() {
+  std::vector<Triangle> run(const std::vector<CellSide>& known) {
+    take(known);
     cut();
     wind_what_is_voted(surface());
+    take(known);
     cut();
     join_at_edges();
     return surface();
@@ -95,6 +97,12 @@ class Cut {
   void wind_what_is_voted(std::vector<Triangle> triangles) {
     std::erase_if(triangles, [&](const Triangle& t) { return !votes_.contains(sorted(t)); });
     winding_ = wind(points_, cells_, std::move(triangles)).winding;
+  }
+
+  // What is known stands above what surfaces wind about.
+  void take(const std::vector<CellSide>& known) {
+    for (std::size_t cell = 0; cell < known.size(); ++cell)
+      if (known[cell] != CellSide::unknown) winding_[cell] = known[cell] == CellSide::inside ? 1 : 0;
   }
 
   void cut() {
@@ -328,8 +336,9 @@ WoundSurface wind(const std::vector<Vec3>& points, const DelaunayCells& cells, s
 }
 
 std::vector<Triangle> cut_surface(const std::vector<Vec3>& points, const std::vector<double>& spacing,
-                                  const DelaunayCells& cells, const std::vector<const WoundSurface*>& surfaces) {
-  return Cut(points, spacing, cells, surfaces).run();
+                                  const DelaunayCells& cells, const std::vector<const WoundSurface*>& surfaces,
+                                  const std::vector<CellSide>& known) {
+  return Cut(points, spacing, cells, surfaces).run(known);
 }
 
 std::vector<Triangle> join_pieces(const std::vector<Vec3>& points, const std::vector<double>& spacing,

@@ -1,6 +1,7 @@
 // Which tetrahedra are inside: what several surfaces of their triangles say, made one closed surface by a minimum cut.
 #pragma once
 
+#include "preproc/surface/reconstruction/cell_sides.hpp"
 #include "preproc/surface/reconstruction/delaunay.hpp"
 
 #include <vector>
@@ -23,9 +24,10 @@ WoundSurface wind(const std::vector<Vec3>& points, const DelaunayCells& cells, s
 // of this cut, all of it outwards now; pieces that meet in an edge alone are made one there. Sources of the idea:
 // Labatut, Pons, Keriven, "Robust and efficient surface reconstruction from range data", 2009; winding_number.hpp; the
 // maximum flow is of Boykov and Kolmogorov, 2004, from Boost. Empty where nothing is inside. About 10 us a tetrahedron;
-// parallel in part, the same for any number of threads.
+// parallel in part, the same for any number of threads. `known`: of each tetrahedron, or none.
 std::vector<Triangle> cut_surface(const std::vector<Vec3>& points, const std::vector<double>& spacing,
-                                  const DelaunayCells& cells, const std::vector<const WoundSurface*>& surfaces);
+                                  const DelaunayCells& cells, const std::vector<const WoundSurface*>& surfaces,
+                                  const std::vector<CellSide>& known = {});
 
 // The same with pieces of `parted`, such a cut, joined across gaps that are no longer than `longest` spacings, where
 // one of the surfaces has them in one component: a front that turns itself inside out on a thin leg has sheets across
