@@ -51,24 +51,50 @@ class Sides {
 
   double distance(std::uint32_t label, const Vec3& p) const { return found_.list[label].shape.signed_distance(p); }
 
-  CellSide by_corners(const std::array<std::uint32_t, 4>& corners, const Vec3& centre) const {
-    std::array<std::uint32_t, 4> label;
-    std::array<double, 4> away;
-    bool is_before = true, is_behind = true;
-    for (std::size_t k = 0; k < 4; ++k) {
-      label[k] = found_.labels[corners[k]];
-      if (label[k] == no_primitive) return CellSide::unknown;
-      away[k] = distance(label[k], centre);
-      is_before = is_before && away[k] > near();
-      is_behind = is_behind && away[k] < -near();
+  // Whether a rounding is the surface where p is, between the two shapes that it joins, by directions.
+  bool is_in_sector(const Primitive& blend, const Vec3& p) const {
+    const auto [one, other] = *blend.relations.tangent_to;
+    const Vec3 n = blend.shape.normal(p), a = found_.list[one].shape.normal(p), b = found_.list[other].shape.normal(p);
+    return n.dot(a - a.dot(b) * b) > 0 && n.dot(b - a.dot(b) * a) > 0;
+  }
+
+  // The shapes of the corners that count at p: a rounding instead of those that it joins, or these instead of it.
+  std::vector<std::uint32_t> shapes_at(const std::array<std::uint32_t, 4>& corners, const Vec3& p) const {
+    std::vector<std::uint32_t> labels, superseded;
+    for (const std::uint32_t v : corners) {
+      const std::uint32_t label = found_.labels[v];
+      if (label == no_primitive) return {};
+      labels.push_back(label);
+      const Primitive& primitive = found_.list[label];
+      if (!primitive.relations.tangent_to) continue;
+      if (is_in_sector(primitive, p))
+        superseded.insert(superseded.end(), primitive.relations.tangent_to->begin(),
+                          primitive.relations.tangent_to->end());
+      else
+        superseded.push_back(label);
     }
-    if (is_before) return CellSide::outside;
-    if (is_behind) return CellSide::inside;
+    std::ranges::sort(labels);
+    labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
+    std::erase_if(labels,
+                  [&](std::uint32_t label) { return std::ranges::find(superseded, label) != superseded.end(); });
+    return labels;
+  }
+
+  CellSide by_corners(const std::array<std::uint32_t, 4>& corners, const Vec3& centre) const {
+    const std::vector<std::uint32_t> labels = shapes_at(corners, centre);
+    if (labels.empty()) return CellSide::unknown;
+    std::vector<std::uint32_t> before, behind;
+    for (const std::uint32_t label : labels) {
+      const double away = distance(label, centre);
+      if (away > near()) before.push_back(label);
+      if (away < -near()) behind.push_back(label);
+    }
+    if (before.size() == labels.size()) return CellSide::outside;
+    if (behind.size() == labels.size()) return CellSide::inside;
     CellSide side = CellSide::unknown;
-    for (std::size_t i = 0; i < 4; ++i)
-      for (std::size_t k = 0; k < 4; ++k) {
-        if (away[i] <= near() || away[k] >= -near()) continue;
-        const CellSide here = by_edge(corners, label, label[i], label[k]);
+    for (const std::uint32_t one : before)
+      for (const std::uint32_t other : behind) {
+        const CellSide here = by_edge(corners, one, other);
         if (here == CellSide::unknown || (side != CellSide::unknown && side != here)) return CellSide::unknown;
         side = here;
       }
@@ -76,12 +102,12 @@ class Sides {
   }
 
   // Before the one shape, behind the other.
-  CellSide by_edge(const std::array<std::uint32_t, 4>& corners, const std::array<std::uint32_t, 4>& label,
-                   std::uint32_t one, std::uint32_t other) const {
+  CellSide by_edge(const std::array<std::uint32_t, 4>& corners, std::uint32_t one, std::uint32_t other) const {
     double most = -std::numeric_limits<double>::infinity(), least = -most;
-    for (std::size_t k = 0; k < 4; ++k) {
-      if (label[k] != one && label[k] != other) continue;
-      const double d = distance(label[k] == one ? other : one, points_[corners[k]]);
+    for (const std::uint32_t v : corners) {
+      const std::uint32_t label = found_.labels[v];
+      if (label != one && label != other) continue;
+      const double d = distance(label == one ? other : one, points_[v]);
       most = std::max(most, d);
       least = std::min(least, d);
     }

@@ -36,10 +36,16 @@ void orient(const std::vector<Vec3>& points, std::vector<Triangle>& triangles) {
   triangles = std::move(mesh.triangles);
 }
 
+Triangle sorted(Triangle t) {
+  std::ranges::sort(t);
+  return t;
+}
+
 struct Candidate {
   ConsistentSurface surface;
   std::string name;
   std::vector<const WoundSurface*> fronts;
+  bool is_shaped = false;
   std::size_t faults() const {
     constexpr std::size_t of_body = 10;
     return of_body * (surface.bodies - 1) + surface.off_surface.size() + surface.crowded_edges + surface.overlong;
@@ -54,11 +60,8 @@ class Search {
   // Instead of fronts, a surface through most of the points.
   ConsistentSurface run_again(const ConsistentSurface& before) {
     cells_ = Delaunay(points_, spacing_).cells();
-    for (std::size_t i = 0; i < before.triangles.size(); ++i) {
-      Triangle t = before.triangles[i];
-      std::ranges::sort(t);
-      if (!before.is_made_up[i]) supported_.insert(t);
-    }
+    for (std::size_t i = 0; i < before.triangles.size(); ++i)
+      if (!before.is_made_up[i]) supported_.insert(sorted(before.triangles[i]));
     fronts_.push_back(wind(points_, cells_, before.triangles));
     add_candidate(before.choice, {&fronts_[0]});
     if (candidates_.empty()) return {};
@@ -88,45 +91,27 @@ class Search {
   }
 
  private:
-  // What lies on one shape, or between what is known to be inside and what outside, is not made up.
-  void support_by_shapes(const std::vector<Triangle>& triangles, const std::vector<CellSide>& known,
-                         const Primitives& found) {
-    std::set<Triangle> between;
-    for (std::uint32_t cell = 0; cell < known.size(); ++cell)
-      for (std::size_t k = 0; k < 4 && known[cell] == CellSide::inside; ++k) {
-        if (known[cells_.neighbours[cell][k]] != CellSide::outside) continue;
-        Triangle t = cells_.facet(cell, k);
-        std::ranges::sort(t);
-        between.insert(t);
-      }
-    for (Triangle t : triangles) {
-      const std::uint32_t label = found.labels[t[0]];
-      std::ranges::sort(t);
-      const bool is_on_one =
-          label != no_primitive && std::ranges::all_of(t, [&](auto v) { return found.labels[v] == label; });
-      if (is_on_one || between.contains(t)) supported_.insert(t);
-    }
-  }
-
   // On a part the best once more, by what its shapes say.
   void hold_against_shapes() {
-    constexpr std::size_t few = 20'000;  // beyond, fronts go astray no more
-    if (points_.size() > few) return;
+    constexpr std::size_t few = 20'000;  // beyond, fronts go astray no more, and shapes take long
+    constexpr std::size_t points_of_fault = 200;
     const Candidate& best = *std::ranges::min_element(candidates_, {}, &Candidate::faults);
-    const Primitives found = find_primitives({points_, best.surface.triangles}, {}, progress_);
-    if (found.kind != ScanKind::part) return;
-    const std::vector<CellSide> known = sides_by_shapes(points_, cells_, found);
-    Candidate shaped{.surface = {}, .name = best.name + " held against its shapes", .fronts = best.fronts};
-    shaped.surface.triangles = cut_surface(points_, spacing_, cells_, best.fronts, known);
+    // A surface that crumples tells no shapes: what was scanned is open.
+    if (points_.size() > few || best.surface.crowded_edges > points_.size() / points_of_fault) return;
+    shapes_ = find_primitives({points_, best.surface.triangles}, {}, progress_);
+    if (shapes_.kind != ScanKind::part) return;
+    Candidate shaped{.surface = {},
+                     .name = best.name + ", held against the part's shapes",
+                     .fronts = best.fronts,
+                     .is_shaped = true};
+    shaped.surface.triangles =
+        cut_surface(points_, spacing_, cells_, best.fronts, sides_by_shapes(points_, cells_, shapes_));
     if (shaped.surface.triangles.empty()) return;
     measure(shaped.surface);
-    support_by_shapes(shaped.surface.triangles, known, found);
-    if (std::getenv("DBG")) {
-      size_t in = 0, out = 0;
-      for (auto k : known) in += k == CellSide::inside, out += k == CellSide::outside;
-      fprintf(stderr, "known in %zu out %zu of %zu; faults %zu -> %zu; tri %zu -> %zu\n", in, out, known.size(),
-              best.faults(), shaped.faults(), best.surface.triangles.size(), shaped.surface.triangles.size());
-    }
+    // Where shapes meet in edges, a fault or two may come in with what they mend.
+    if (shaped.surface.bodies > best.surface.bodies ||
+        shaped.faults() > best.faults() + points_.size() / points_of_fault)
+      return;
     candidates_.clear();
     candidates_.push_back(std::move(shaped));
   }
@@ -139,10 +124,7 @@ class Search {
     cells_ = delaunay.cells();
     for (const double beta : betas_) {
       std::vector<Triangle> front = delaunay.advancing_front({.beta = beta});
-      for (Triangle t : front) {
-        std::ranges::sort(t);
-        supported_.insert(t);
-      }
+      for (const Triangle& t : front) supported_.insert(sorted(t));
       orient(points_, front);
       fronts_.push_back(wind(points_, cells_, std::move(front)));
       progress_("reconstruction", 0.3 + 0.4 * static_cast<double>(fronts_.size()) / static_cast<double>(betas_.size()));
@@ -202,10 +184,12 @@ class Search {
       best->surface.choice += "; the best of " + std::to_string(candidates_.size());
       if (worst->faults() > best->faults()) best->surface.choice += ", the worst with " + text(worst->surface);
     }
-    for (Triangle t : best->surface.triangles) {
-      std::ranges::sort(t);
-      best->surface.is_made_up.push_back(!supported_.contains(t));
-    }
+    // Shapes say more than fronts; but across a gap they say nothing.
+    for (const Triangle& t : best->surface.triangles)
+      best->surface.is_made_up.push_back(
+          !supported_.contains(sorted(t)) &&
+          (!best->is_shaped || length_in_spacings(points_, spacing_, t) > long_for_spacing));
+    best->surface.shapes = std::move(shapes_);
     return std::move(best->surface);
   }
 
@@ -217,6 +201,7 @@ class Search {
   std::vector<WoundSurface> fronts_;
   std::set<Triangle> supported_;  // by a front
   std::vector<Candidate> candidates_;
+  Primitives shapes_;
 };
 
 }  // namespace

@@ -120,21 +120,32 @@ std::vector<bool> find_stray_points(const std::vector<Vec3>& points) {
   return is_stray;
 }
 
-// Outliers are few and far between; where many neighbours of a point are said to be some, the points are too few for
-// what they show, as on a thin leg. What is `isolated` is so whatever its neighbours are.
+// Outliers are few and far between; where more neighbours of a point are said to be some than chance puts there, the
+// points are too few for what they show, as on a thin leg, or on the wall of a hole. What is `isolated` is so whatever
+// its neighbours are.
 std::vector<bool> without_crowds(const std::vector<Vec3>& points, const std::vector<bool>& is_outlier,
                                  const std::vector<bool>& isolated) {
-  constexpr std::size_t crowd = 2;  // of the neighbours
+  constexpr std::size_t wide = 64;
+  constexpr std::size_t crowd = 2;  // of the nearest
+  std::size_t all = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) all += is_outlier[i] && !isolated[i];
+  const double usual = static_cast<double>(wide * all) / static_cast<double>(points.size());
+  const double wide_crowd = usual + 3 * std::sqrt(usual) + 1;  // Poisson's three sigmas, and one for so few
   const PointNeighbours neighbours(points);
   std::vector<char> stays(points.size());
   for_each_block(points.size(), [&](std::size_t first, std::size_t last) {
-    std::array<Neighbour, candidates + 1> near;
+    std::array<Neighbour, wide> found;
     for (std::size_t i = first; i < last; ++i) {
       if (!is_outlier[i] || isolated[i]) continue;
-      std::size_t count = 0;
-      for (const Neighbour& n : neighbours.nearest(points[i], near))
-        count += n.point != i && is_outlier[n.point] && !isolated[n.point];
-      stays[i] = count >= crowd;
+      std::size_t beside = 0, about = 0;
+      const auto near = neighbours.nearest(points[i], found);
+      for (std::size_t k = 0; k < near.size(); ++k) {
+        const std::uint32_t j = near[k].point;
+        if (j == i || !is_outlier[j] || isolated[j]) continue;
+        ++about;
+        beside += k <= candidates;
+      }
+      stays[i] = beside >= crowd || static_cast<double>(about) > wide_crowd;
     }
   });
   std::vector<bool> result = is_outlier;

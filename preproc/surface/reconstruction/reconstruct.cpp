@@ -93,7 +93,7 @@ void look_again(ConsistentSurface& found, std::vector<Vec3>& points, std::vector
                 std::vector<Vec3>& outliers, const Progress& progress) {
   std::vector<Vec3> all = points;
   all.insert(all.end(), outliers.begin(), outliers.end());
-  const std::vector<bool> is_outlier = find_surface_outliers({points, found.triangles}, all, progress);
+  const std::vector<bool> is_outlier = find_surface_outliers({points, found.triangles}, found.shapes, all);
   bool is_changed = false;
   for (std::size_t i = 0; i < all.size(); ++i) is_changed = is_changed || is_outlier[i] != (i >= points.size());
   if (!is_changed) return;

@@ -73,13 +73,10 @@ double distance_from_quadric(const Vec3& p, std::span<const Vec3> others) {
 
 class SecondLook {
  public:
-  SecondLook(const SurfaceMesh& surface, const std::vector<Vec3>& points, const Progress& progress)
-      : surface_(surface), points_(points), near_(nearest_on_surface(surface, about)) {
+  SecondLook(const SurfaceMesh& surface, const Primitives& shapes, const std::vector<Vec3>& points)
+      : surface_(surface), points_(points), found_(shapes), near_(nearest_on_surface(surface, about)) {
     find_places();
     find_distances();
-    // Where points are dense, quadrics do as well, and shapes cost a hundred times as much.
-    constexpr std::size_t few = 20'000;
-    if (surface.vertices.size() < few) found_ = find_primitives(surface, {}, progress);
   }
 
   std::vector<bool> run() const {
@@ -117,12 +114,12 @@ class SecondLook {
 
   const SurfaceMesh& surface_;
   const std::vector<Vec3>& points_;
+  const Primitives& found_;
   Neighbours near_;
   std::vector<std::uint32_t> place_;
   std::vector<bool> is_far_;      // from any vertex, for the spacing there
   std::vector<double> distance_;  // from quadrics; of each point
   double noise_ = 0;
-  Primitives found_;
 };
 
 void SecondLook::find_places() {
@@ -206,9 +203,9 @@ bool SecondLook::is_alone(std::size_t i, const std::vector<char>& is_outlier) co
 
 }  // namespace
 
-std::vector<bool> find_surface_outliers(const SurfaceMesh& surface, const std::vector<Vec3>& points,
-                                        const Progress& progress) {
-  return SecondLook(surface, points, progress).run();
+std::vector<bool> find_surface_outliers(const SurfaceMesh& surface, const Primitives& shapes,
+                                        const std::vector<Vec3>& points) {
+  return SecondLook(surface, shapes, points).run();
 }
 
 }  // namespace scan2fea
