@@ -143,13 +143,15 @@ Chosen largest(const SurfaceMesh& mesh, const SurfaceFaces& faces, const Selecti
 }  // namespace
 
 std::string describe(const SurfaceFace& face) {
+  // Without what rounding leaves of zeros.
+  const auto direction = [](const Vec3& d) { return error_text(Vec3((1e4 * d).array().round() / 1e4 + 0.0)); };
   std::string text = face.name + " (" + std::string(kind_of(face));
   if (face.shape) {
     const Shape& shape = *face.shape;
-    if (shape.kind == ShapeKind::plane) text += ", normal " + error_text(shape.axis);
+    if (shape.kind == ShapeKind::plane) text += ", normal " + direction(shape.axis);
     if (shape.kind != ShapeKind::plane) text += ", radius " + error_text(shape.radius, 4);
     if (shape.kind == ShapeKind::torus) text += ", tube " + error_text(shape.tube_radius, 4);
-    if (shape.kind != ShapeKind::plane && shape.kind != ShapeKind::sphere) text += ", axis " + error_text(shape.axis);
+    if (shape.kind != ShapeKind::plane && shape.kind != ShapeKind::sphere) text += ", axis " + direction(shape.axis);
   }
   return text + ", area " + error_text(face.area, 4) + ")";
 }

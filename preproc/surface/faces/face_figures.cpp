@@ -5,6 +5,7 @@
 #include "preproc/surface/primitives/shape_set.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <numeric>
@@ -14,6 +15,9 @@ namespace scan2fea {
 namespace {
 
 using Index = std::uint32_t;
+
+// By how much noise of the diagonal's size would change the areas of faces with tangent neighbours, about.
+constexpr double area_noise = 40;
 
 // In the widest gap, as a ratio, between those of the differences that are in [low, high]; all are above 0.
 double tolerance_between(std::vector<double> differences, double low, double high) {
@@ -25,6 +29,13 @@ double tolerance_between(std::vector<double> differences, double low, double hig
   for (std::size_t i = 0; i + 1 < differences.size(); ++i)
     if (differences[i + 1] * differences[widest] > differences[widest + 1] * differences[i]) widest = i;
   return std::sqrt(differences[widest] * differences[widest + 1]);
+}
+
+// By what a drawing tells: radii are round numbers, and the same or well apart, where areas of fillets go with the
+// noise.
+double size_of(const SurfaceFace& face) {
+  if (!face.shape || face.shape->kind == ShapeKind::plane || face.shape->kind == ShapeKind::cone) return face.area;
+  return face.shape->radius;
 }
 
 // Sorts by the first of the keys, where those are equal by the next.
@@ -91,14 +102,23 @@ std::optional<Shape> fit_face(const SurfaceMesh& mesh, const std::vector<Index>&
   return best;
 }
 
+std::array<Vec3, 3> on_shape(const SurfaceMesh& mesh, Index triangle, const SurfaceFace& face) {
+  std::array<Vec3, 3> p;
+  for (std::size_t k = 0; k < 3; ++k) {
+    p[k] = mesh.vertices[mesh.triangles[triangle][k]];
+    if (face.shape) p[k] = face.shape->foot(p[k]);
+  }
+  return p;
+}
+
 void measure_face(const SurfaceMesh& mesh, const std::vector<bool>& is_border_vertex, SurfaceFace& face) {
   face.area = 0;
   face.place = Vec3::Zero();
   for (const Index f : face.triangles) {
-    const Triangle& t = mesh.triangles[f];
-    const double area = area_vector(mesh, t).norm() / 2;
+    const std::array<Vec3, 3> p = on_shape(mesh, f, face);
+    const double area = (p[1] - p[0]).cross(p[2] - p[0]).norm() / 2;
     face.area += area;
-    face.place += area / 3 * (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]);
+    face.place += area / 3 * (p[0] + p[1] + p[2]);
   }
   if (face.area > 0) face.place /= face.area;
   if (!face.shape) return;
@@ -114,10 +134,11 @@ void measure_face(const SurfaceMesh& mesh, const std::vector<bool>& is_border_ve
   }
 }
 
-void name_faces(const SurfaceMesh& mesh, std::vector<SurfaceFace>& faces) {
+void name_faces(const SurfaceMesh& mesh, double noise, std::vector<SurfaceFace>& faces) {
   const double diagonal = bounding_box(mesh.vertices).diagonal();
   const auto kind = [](const SurfaceFace& f) { return f.shape ? static_cast<double>(f.shape->kind) : HUGE_VAL; };
-  std::vector<NameOrder::Key> keys{{[](const SurfaceFace& f) { return -std::log(f.area); }, 0.005, 0.05}};
+  std::vector<NameOrder::Key> keys{
+      {[](const SurfaceFace& f) { return -std::log(size_of(f)); }, 0.005 + area_noise * noise / diagonal, 0.08}};
   for (const int axis : {0, 1, 2})
     keys.push_back({[axis](const SurfaceFace& f) { return f.place[axis]; }, 0.0005 * diagonal, 0.01 * diagonal});
   const NameOrder order(std::move(keys));

@@ -3,6 +3,9 @@
 
 #include "preproc/surface/faces/find_faces.hpp"
 
+#include <array>
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace scan2fea {
@@ -11,10 +14,13 @@ namespace scan2fea {
 // nothing where none does. Which of the triangles' sides is outside their order tells.
 std::optional<Shape> fit_face(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& triangles, double sigma);
 
-// Area, place and misfit of a face whose triangles and shape are known; `label`: its own in `of_triangle`.
+// The triangle's corners on the face's shape: noise makes a surface larger than what it is of.
+std::array<Vec3, 3> on_shape(const SurfaceMesh& mesh, std::uint32_t triangle, const SurfaceFace& face);
+
+// Area, place and misfit of a face whose triangles and shape are known.
 void measure_face(const SurfaceMesh& mesh, const std::vector<bool>& is_border_vertex, SurfaceFace& face);
 
 // Sorts and names them; see find_faces.hpp.
-void name_faces(const SurfaceMesh& mesh, std::vector<SurfaceFace>& faces);
+void name_faces(const SurfaceMesh& mesh, double noise, std::vector<SurfaceFace>& faces);
 
 }  // namespace scan2fea

@@ -19,7 +19,7 @@ struct SurfaceFace {
   std::string name;            // FACE_1, ...
   std::optional<Shape> shape;  // none: free-form
   std::vector<std::uint32_t> triangles;
-  double area = 0;
+  double area = 0;            // on its shape, where it has one
   Vec3 place = Vec3::Zero();  // the mean of its surface: off it where it is curved
   // Of its vertices from its shape, but for those at its border, where others belong as much to the next face.
   double mean_misfit = 0, largest_misfit = 0;
@@ -39,11 +39,11 @@ struct SurfaceFaces {
 // triangles is no face of its own but where it has creases on both sides and is exactly plane, as a chamfer of CAD is.
 // Pieces that no shape describes are free-form, one for each that creases part; so an organic scan has one face.
 //
-// Order: planes, cylinders, cones, spheres, tori, free-form faces; those of a kind by area, the largest first. Areas
-// count as equal where they differ by less than a tolerance of 0.5 to 5 %, which lies in the widest gap between the
-// areas' differences, so that it is the same for another triangulation; equal ones go by place: x, then y, then z, each
-// with a tolerance of 0.05 to 1 % of the diagonal that is found likewise. The order of triangles and the number of
-// threads have no say.
+// Order: planes, cylinders, cones, spheres, tori, free-form faces. Planes, cones and free-form faces by area, the
+// others by radius, the largest first. These count as equal where they differ by less than a tolerance of 0.5 to 8 %
+// (more than noise makes of equal ones), which lies in the widest gap between the differences, so that it is the same
+// for another triangulation; equal ones go by place: x, then y, then z, each with a tolerance of 0.05 to 1 % of the
+// diagonal that is found likewise. The order of triangles and the number of threads have no say.
 //
 // Precondition: manifold. Cost: that of find_primitives, about 40 s for a million vertices. Throws Cancelled.
 // Not guaranteed: that the border of two faces that are tangent is found nearer than an edge, or a stretch over which
