@@ -242,7 +242,16 @@ void hand_on_creases(const SurfaceMesh& enriched, const std::vector<FeatureEdge>
 SelectedScan select(SurfaceMesh scan, const PipelineOptions& options, const Progress& progress,
                     std::optional<SimplifyOptions>& simplification, StageRecord& record) {
   const FeatureOptions features = options.simplify ? options.simplify->features : FeatureOptions{};
-  SelectedScan selected = select_sets(std::move(scan), options.sets, {}, features, progress);
+  std::optional<SurfaceFaces> faces;
+  if (options.idealise) {
+    faces = find_faces(scan, features, progress);
+    const IdealiseResult idealised = idealise(scan, *faces, *options.idealise);
+    record.changes = {{"idealised", static_cast<double>(idealised.moved)},
+                      {"not_idealised", static_cast<double>(idealised.left)},
+                      {"largest_move", idealised.largest_move},
+                      {"rms_move", idealised.rms_move}};
+  }
+  SelectedScan selected = select_sets(std::move(scan), options.sets, {}, features, progress, std::move(faces));
   if (simplification)
     simplification->kept_lines = lines_of(selected.mesh, borders_between(selected.mesh, selected.of_triangle));
   record.changes.emplace_back("faces", static_cast<double>(selected.faces.list.size()));
@@ -345,8 +354,8 @@ void run_stages(SurfaceMesh scan, const SurfaceMesh* seen, const PipelineOptions
       hand_on_creases(enriched, made.creases, chain.simplify);
     });
   std::optional<SelectedScan> selected;
-  if (!options.sets.empty())
-    log.run("sets", [&](StageRecord& record) {
+  if (!options.sets.empty() || options.idealise)
+    log.run("faces", [&](StageRecord& record) {
       selected = select(options.enrich ? enriched : result.scan, options, progress, chain.simplify, record);
     });
   const SurfaceMesh& start = selected ? selected->mesh : options.enrich ? enriched : result.scan;
@@ -366,7 +375,8 @@ void run_stages(SurfaceMesh scan, const SurfaceMesh* seen, const PipelineOptions
       log.run("second order", [&](StageRecord& record) {
         const std::size_t corners = result.volume_mesh->nodes.size();
         add_mid_edge_nodes(*result.volume_mesh);
-        const CurveResult curved = curve_mid_edge_nodes(*result.volume_mesh, TriangleTree(result.scan));
+        const CurveResult curved =
+            curve_mid_edge_nodes(*result.volume_mesh, TriangleTree(selected ? selected->mesh : result.scan));
         record.changes = {{"nodes_added", static_cast<double>(result.volume_mesh->nodes.size() - corners)},
                           {"curved_edges", static_cast<double>(curved.curved)},
                           {"straight_edges_too_far", static_cast<double>(curved.too_far)},

@@ -7,6 +7,7 @@
 #include "preproc/mesh/surface_mesh.hpp"
 #include "preproc/mesh/tet_mesh.hpp"
 #include "preproc/surface/enrichment/enrich.hpp"
+#include "preproc/surface/faces/idealise.hpp"
 #include "preproc/surface/faces/select_sets.hpp"
 #include "preproc/surface/reconstruction/reconstruct.hpp"
 #include "preproc/surface/repair/repair.hpp"
@@ -34,6 +35,7 @@ struct PipelineOptions {
   int order = 1;  // 1: 4-node tetrahedra, 2: 10-node tetrahedra
   // Parts of the surface that get a name; their borders become lines of the mesh.
   std::vector<NamedSelection> sets = {};
+  std::optional<Idealise> idealise = {};  // the scan before it is simplified
 };
 
 // A set of the result's triangles.

@@ -371,6 +371,13 @@ void add_set_flag(CLI::App& command, std::vector<std::string>& sets) {
       ->allow_extra_args(false);
 }
 
+void add_idealise_flag(CLI::App& command, std::optional<Idealise>& idealise) {
+  add_choice<std::optional<Idealise>>(
+      command, "--idealise", idealise, {{"off", std::nullopt}, {"plane", Idealise::plane}, {"all", Idealise::all}},
+      "Put the scan's vertices onto the planes, or onto all shapes, that its faces have within the noise; off by "
+      "default");
+}
+
 void add_effort_flag(CLI::App& command, PipelineOptions& options) {
   const Choices<Effort> efforts{{"low", Effort::low}, {"normal", Effort::normal}, {"high", Effort::high}};
   command

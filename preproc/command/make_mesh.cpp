@@ -132,6 +132,7 @@ void add_surface_flags(CLI::App& command, MakeMeshJob& job) {
   add_simplify_flags(command, *job.pipeline.simplify);
   add_feature_file_flags(command, job.features);
   add_set_flag(command, job.sets);
+  add_idealise_flag(command, job.pipeline.idealise);
   add_effort_flag(command, job.pipeline);
 }
 

@@ -281,13 +281,17 @@ void require_some(const Scan& scan, const Selector& selector, const NamedSet& se
 }  // namespace
 
 SelectedScan select_sets(SurfaceMesh mesh, std::span<const NamedSelection> selections, std::span<const NamedSet> given,
-                         const FeatureOptions& features, const Progress& progress) {
+                         const FeatureOptions& features, const Progress& progress,
+                         std::optional<SurfaceFaces> known_faces) {
   const auto any = [&](const auto& asks) {
     return std::any_of(selections.begin(), selections.end(),
                        [&](const NamedSelection& s) { return asks(s.selection); });
   };
   SurfaceFaces faces;
-  if (any([&](const Selection& s) { return asks_for_faces(s, given); })) faces = find_faces(mesh, features, progress);
+  if (known_faces)
+    faces = std::move(*known_faces);
+  else if (any([&](const Selection& s) { return asks_for_faces(s, given); }))
+    faces = find_faces(mesh, features, progress);
   Scan scan(std::move(mesh), std::move(faces), given, any(asks_for_normals));
   const auto is_of_places = [](const Selection& s) { return !s.is_of_whole_faces(); };
   if (any(is_of_places)) scan.halve_long_edges();

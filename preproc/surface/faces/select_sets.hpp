@@ -6,6 +6,7 @@
 #include "preproc/surface/faces/selection.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,9 +25,10 @@ struct SelectedScan {
 // are selected. Edges that the border of a place (a box, a ball, a half-space, an angle) crosses are cut there, but for
 // a twentieth next to their ends; edges longer than a sixtieth of the diagonal are halved before, so that places
 // smaller than a triangle are found. Throws WrongUsage where a selection, or what stands in it by itself, selects
-// nothing: it says what is near. Cost: find_faces where faces are asked for; else linear.
+// nothing: it says what is near. `known_faces`: of the scan, where they have been found. Cost: find_faces where faces
+// are asked for; else linear.
 SelectedScan select_sets(SurfaceMesh scan, std::span<const NamedSelection> selections,
                          std::span<const NamedSet> given = {}, const FeatureOptions& features = {},
-                         const Progress& progress = {});
+                         const Progress& progress = {}, std::optional<SurfaceFaces> known_faces = {});
 
 }  // namespace scan2fea
