@@ -1,0 +1,169 @@
+// Sets from the command line into files: the faces meant, all of their nodes and no others.
+#include "preproc/mesh/write_surface.hpp"
+#include "tests/analytic_meshes.hpp"
+#include "tests/machined_part.hpp"
+#include "tests/run_command.hpp"
+#include "tests/temporary_folder.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace scan2fea {
+namespace {
+
+using ::testing::HasSubstr;
+
+class CommandSets : public ::testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  // Runs, expects no failure, and returns what --json says.
+  nlohmann::json run(const std::string& arguments) const {
+    const auto result = run_command("run " + arguments + " -o '" + path("out.inp") + "' --force --quiet --json '" +
+                                    path("out.json") + "'");
+    EXPECT_EQ(result.exit_code, 0) << result.standard_error;
+    std::ifstream in(path("out.json"));
+    return nlohmann::json::parse(in);
+  }
+
+  // Node numbers of a set in the written file, and where the nodes are.
+  std::vector<std::size_t> nodes_of(const std::string& set, std::map<std::size_t, Vec3>& places) const {
+    std::ifstream in(path("out.inp"));
+    std::vector<std::size_t> numbers;
+    enum class In { nothing, nodes, members } where = In::nothing;
+    for (std::string line; std::getline(in, line);) {
+      std::transform(line.begin(), line.end(), line.begin(), [](unsigned char c) { return std::toupper(c); });
+      if (line.starts_with("*")) {
+        where = line.starts_with("*NODE")                 ? In::nodes
+                : line == "*NSET, NSET=" + set + "_NODES" ? In::members
+                                                          : In::nothing;
+        continue;
+      }
+      std::replace(line.begin(), line.end(), ',', ' ');
+      std::istringstream words(line);
+      std::size_t n = 0;
+      if (where == In::nodes) {
+        Vec3 p;
+        words >> n >> p.x() >> p.y() >> p.z();
+        places[n] = p;
+      }
+      while (where == In::members && words >> n) numbers.push_back(n);
+    }
+    std::sort(numbers.begin(), numbers.end());
+    return numbers;
+  }
+
+  void expect_exactly(const std::string& set, const std::function<bool(const Vec3&)>& is_there) const {
+    std::map<std::size_t, Vec3> places;
+    const std::vector<std::size_t> numbers = nodes_of(set, places);
+    std::vector<std::size_t> expected;
+    for (const auto& [n, p] : places)
+      if (is_there(p)) expected.push_back(n);
+    EXPECT_FALSE(numbers.empty());
+    EXPECT_EQ(numbers, expected) << set;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(CommandSets, HaveExactlyTheNodesOfTheirFaces) {
+  write_surface(analytic::box({3, 4, 5}, 0.25), path("box.ply"));
+  for (const std::string order : {"1", "2"}) {
+    const nlohmann::json report = run("'" + path("box.ply") + "' --edge-length 0.4 --order " + order +
+                                      " --set 'fixed=plane(z<0.1)' --set 'load=FACE_1 or plane(x)'");
+    ASSERT_EQ(report["sets"].size(), 2U);
+    EXPECT_NEAR(report["sets"][0]["area"].get<double>(), 12, 1e-6);
+    EXPECT_NEAR(report["sets"][1]["area"].get<double>(), 40, 1e-6);
+    expect_exactly("FIXED", [](const Vec3& p) { return std::abs(p.z()) < 1e-9; });
+    expect_exactly("LOAD", [](const Vec3& p) { return std::abs(p.x()) < 1e-9 || std::abs(p.x() - 3) < 1e-9; });
+  }
+}
+
+TEST_F(CommandSets, EndAtLinesOfTheMesh) {
+  write_surface(analytic::sphere(10, 5), path("ball.ply"));
+  const nlohmann::json report =
+      run("'" + path("ball.ply") + "' --faces 4000 --set 'cap=z>4' --set 'spot=ball(0,0,-10, 3)'");
+  // Of a sphere cut by a plane: 2 pi r h.
+  const double cap = 2 * 3.14159265358979 * 10 * 6;
+  EXPECT_NEAR(report["sets"][0]["area_of_scan"].get<double>(), cap, 0.003 * cap);
+  for (const auto& set : report["sets"]) EXPECT_LT(std::abs(set["area_difference_pct"].get<double>()), 1) << set;
+  std::map<std::size_t, Vec3> places;
+  for (const std::size_t n : nodes_of("CAP", places)) EXPECT_GT(places.at(n).z(), 3.99);
+}
+
+TEST_F(CommandSets, OfAPartKeepTheirAreas) {
+  for (const double noise : {0.0, 0.0002}) {
+    const analytic::MachinedPart part = analytic::machined_part(1, noise);
+    write_surface(part.scan, path("part.ply"));
+    const nlohmann::json report = run(
+        "'" + path("part.ply") +
+        "' --order 2 --set 'fixed=plane(z<0.5)' --set 'load=cylinder(z, r=6.5+-0.2, hole)' --set 'top=cylinder(x)'");
+    for (const auto& set : report["sets"]) EXPECT_LT(std::abs(set["area_difference_pct"].get<double>()), 0.1) << set;
+    const double near = noise > 0 ? 0.15 : 0.05;
+    expect_exactly("FIXED", [&](const Vec3& p) { return p.z() < near; });
+  }
+}
+
+TEST_F(CommandSets, AreInTheConfigurationToo) {
+  write_surface(analytic::box({3, 4, 5}, 0.5), path("box.ply"));
+  std::ofstream(path("run.toml")) << "[run]\nedge-length = 0.6\nset = [\"fixed=plane(-z)\", \"load=plane(z)\"]\n";
+  const nlohmann::json report = run("'" + path("box.ply") + "' --config '" + path("run.toml") + "'");
+  ASSERT_EQ(report["sets"].size(), 2U);
+  EXPECT_EQ(report["sets"][1]["name"], "load");
+}
+
+TEST_F(CommandSets, OfNothingAreRefusedWithWhatIsNear) {
+  write_surface(analytic::box({3, 4, 5}, 0.5), path("box.ply"));
+  const auto refused = [&](const std::string& set) {
+    const auto result =
+        run_command("run '" + path("box.ply") + "' -o '" + path("no.inp") + "' --quiet --set '" + set + "'");
+    EXPECT_EQ(result.exit_code, 2) << result.standard_error;
+    EXPECT_FALSE(std::filesystem::exists(path("no.inp")));
+    return result.standard_error;
+  };
+  EXPECT_THAT(refused("a=FACE_7"), HasSubstr("FACE_1 to FACE_6"));
+  EXPECT_THAT(refused("a=z>9"), HasSubstr("the scan lies in"));
+  EXPECT_THAT(refused("a=plane(z<0.5mm)"), HasSubstr("--unit mm"));
+  EXPECT_THAT(refused("a=FACE_1' --set 'A=FACE_2"), HasSubstr("two sets have the same name"));
+}
+
+TEST_F(CommandSets, FacesAreListed) {
+  write_surface(analytic::cylinder(5, 20, 96, 40), path("pin.ply"));
+  const auto result = run_command("faces '" + path("pin.ply") + "' --quiet --json - -o '" + path("pin.vtu") + "'");
+  ASSERT_EQ(result.exit_code, 0) << result.standard_error;
+  const nlohmann::json report = nlohmann::json::parse(result.standard_output);
+  ASSERT_EQ(report["faces"].size(), 3U);
+  EXPECT_EQ(report["faces"][2]["kind"], "cylinder");
+  EXPECT_NEAR(report["faces"][2]["radius"].get<double>(), 5, 0.02);
+  EXPECT_TRUE(std::filesystem::exists(path("pin.vtu")));
+  EXPECT_THAT(run_command("faces '" + path("pin.ply") + "'").standard_output, HasSubstr("FACE_3    cylinder"));
+}
+
+TEST_F(CommandSets, IdealisedScansArePlaneAndRound) {
+  const analytic::MachinedPart part = analytic::machined_part(1, 0.001);
+  write_surface(part.scan, path("part.ply"));
+  const nlohmann::json report = run(
+      "'" + path("part.ply") + "' --idealise all --set 'fixed=plane(z<1)' --set 'load=cylinder(z, r=6.5+-0.2, hole)'");
+  std::map<std::size_t, Vec3> places;
+  for (const std::size_t n : nodes_of("FIXED", places)) EXPECT_NEAR(places.at(n).z(), 0, 0.02);
+  for (const std::size_t n : nodes_of("LOAD", places))
+    EXPECT_NEAR(std::hypot(places.at(n).x() + 15, places.at(n).y()), 6.5, 0.1);
+  for (const auto& stage : report["stages"])
+    if (stage["name"] == "faces") {
+      EXPECT_GT(stage["idealised"].get<double>(), 19000);
+      EXPECT_NEAR(stage["rms_move"].get<double>(), 0.0992, 0.02);
+    }
+}
+
+}  // namespace
+}  // namespace scan2fea
