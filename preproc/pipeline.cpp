@@ -9,6 +9,7 @@
 #include "preproc/surface/simplification/voxel_options.hpp"
 #include "preproc/tetrahedra_search.hpp"
 #include "preproc/volume/mid_edge_nodes.hpp"
+#include "quality/triangle_tree.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -238,10 +239,33 @@ void hand_on_creases(const SurfaceMesh& enriched, const std::vector<FeatureEdge>
   simplification->may_drop_given = true;
 }
 
+// The given sets on the surface that is to be simplified: by the nearest triangle where it is another one.
+std::vector<NamedSet> sets_on(const SurfaceMesh& scan, const SurfaceMesh& given, const std::vector<NamedSet>& sets) {
+  if (sets.empty() || scan.triangles == given.triangles) return sets;
+  const TriangleTree tree(given);
+  std::vector<std::uint32_t> origin;
+  for (const auto& [a, b, c] : scan.triangles)
+    origin.push_back(tree.closest((scan.vertices[a] + scan.vertices[b] + scan.vertices[c]) / 3).triangle);
+  return carried_sets(sets, origin);
+}
+
+std::vector<NamedSelection> with_given(std::vector<NamedSelection> selections, const std::vector<NamedSet>& given,
+                                       std::size_t triangles) {
+  std::vector<NamedSet> taken;
+  for (const NamedSelection& s : selections) taken.push_back({s.name, {}});
+  for (const NamedSet& set : given) {
+    if (find_set(taken, set.name) < taken.size() || set.members.empty() || set.members.size() == triangles) continue;
+    NamedSelection& added = selections.emplace_back();
+    added.name = added.selection.text = set.name;
+  }
+  return selections;
+}
+
 // What is selected is selected of the surface that is to be simplified.
-SelectedScan select(SurfaceMesh scan, const PipelineOptions& options, const Progress& progress,
-                    std::optional<SimplifyOptions>& simplification, StageRecord& record) {
+SelectedScan select(SurfaceMesh scan, const std::vector<NamedSet>& given, const PipelineOptions& options,
+                    const Progress& progress, std::optional<SimplifyOptions>& simplification, StageRecord& record) {
   const FeatureOptions features = options.simplify ? options.simplify->features : FeatureOptions{};
+  const std::vector<NamedSelection> selections = with_given(options.sets, given, scan.triangles.size());
   std::optional<SurfaceFaces> faces;
   if (options.idealise) {
     faces = find_faces(scan, features, progress);
@@ -251,7 +275,7 @@ SelectedScan select(SurfaceMesh scan, const PipelineOptions& options, const Prog
                       {"largest_move", idealised.largest_move},
                       {"rms_move", idealised.rms_move}};
   }
-  SelectedScan selected = select_sets(std::move(scan), options.sets, {}, features, progress, std::move(faces));
+  SelectedScan selected = select_sets(std::move(scan), selections, given, features, progress, std::move(faces));
   if (simplification)
     simplification->kept_lines = lines_of(selected.mesh, borders_between(selected.mesh, selected.of_triangle));
   record.changes.emplace_back("faces", static_cast<double>(selected.faces.list.size()));
@@ -260,7 +284,9 @@ SelectedScan select(SurfaceMesh scan, const PipelineOptions& options, const Prog
 }
 
 // The sets on the surface that was made, whose triangles' order the boundary of the volume keeps.
-void carry_sets(const SelectedScan& selected, const SimplifyResult& simplified, PipelineResult& result) {
+// The first `asked` of them must not vanish; of those that came with the scan, what is smaller than triangles may.
+void carry_sets(const SelectedScan& selected, std::size_t asked, const SimplifyResult& simplified,
+                PipelineResult& result) {
   const SurfaceMesh& surface = result.surface;
   const std::vector<std::uint32_t> label =
       carry_labels(selected.mesh, selected.of_triangle, surface, simplified.line_edges);
@@ -270,9 +296,10 @@ void carry_sets(const SelectedScan& selected, const SimplifyResult& simplified, 
     if (selected.of_triangle[f] == example.size()) example.push_back(f);
   std::vector<std::uint32_t> origin;
   for (const std::uint32_t l : label) origin.push_back(example[l]);
-  result.face_sets = carried_sets(selected.sets, origin);
-  for (std::size_t s = 0; s < result.face_sets.size(); ++s) {
-    const NamedSet& set = result.face_sets[s];
+  const std::vector<NamedSet> carried = carried_sets(selected.sets, origin);
+  for (std::size_t s = 0; s < carried.size(); ++s) {
+    const NamedSet& set = carried[s];
+    if (set.members.empty() && s >= asked) continue;
     MadeSet made{.name = set.name, .area_of_scan = selected.areas[s], .triangles = set.members.size()};
     for (const std::uint32_t f : set.members) made.area += area_vector(surface, surface.triangles[f]).norm() / 2;
     if (set.members.empty())
@@ -282,6 +309,7 @@ void carry_sets(const SelectedScan& selected, const SimplifyResult& simplified, 
                          .limit = {},
                          .advice = "smaller triangles (--deviation, --faces, --size-ball), --method lattice"});
     result.sets.push_back(std::move(made));
+    result.face_sets.push_back(set);
   }
 }
 
@@ -354,9 +382,11 @@ void run_stages(SurfaceMesh scan, const SurfaceMesh* seen, const PipelineOptions
       hand_on_creases(enriched, made.creases, chain.simplify);
     });
   std::optional<SelectedScan> selected;
-  if (!options.sets.empty() || options.idealise)
+  if (!options.sets.empty() || !options.given_sets.empty() || options.idealise)
     log.run("faces", [&](StageRecord& record) {
-      selected = select(options.enrich ? enriched : result.scan, options, progress, chain.simplify, record);
+      const SurfaceMesh& whole = options.enrich ? enriched : result.scan;
+      const std::vector<NamedSet> given = sets_on(whole, result.reference(), options.given_sets);
+      selected = select(whole, given, options, progress, chain.simplify, record);
     });
   const SurfaceMesh& start = selected ? selected->mesh : options.enrich ? enriched : result.scan;
   FilledSurface made = MeshMaker(start, stairs, chain, result, log).run(progress);
@@ -365,7 +395,7 @@ void run_stages(SurfaceMesh scan, const SurfaceMesh* seen, const PipelineOptions
                                              result.reference(), options);
   result.surface = std::move(made.surface);
   result.features = std::move(made.simplified.features);
-  if (selected) carry_sets(*selected, made.simplified, result);
+  if (selected) carry_sets(*selected, options.sets.size(), made.simplified, result);
   add_made_up_sets(options.enrich ? enriched : result.scan, origins, result);
   if (options.tetrahedralize) {
     result.volume_mesh = std::move(made.filled.mesh);

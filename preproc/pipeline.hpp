@@ -35,6 +35,9 @@ struct PipelineOptions {
   int order = 1;  // 1: 4-node tetrahedra, 2: 10-node tetrahedra
   // Parts of the surface that get a name; their borders become lines of the mesh.
   std::vector<NamedSelection> sets = {};
+  // Of the triangles of the scan as it is given: names that came with it. They are kept as sets, but for those that a
+  // selection has taken, and those of all triangles, and expressions may name them.
+  std::vector<NamedSet> given_sets = {};
   std::optional<Idealise> idealise = {};  // the scan before it is simplified
 };
 
