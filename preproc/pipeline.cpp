@@ -265,10 +265,15 @@ std::vector<NamedSelection> with_given(std::vector<NamedSelection> selections, c
 SelectedScan select(SurfaceMesh scan, const std::vector<NamedSet>& given, const PipelineOptions& options,
                     const Progress& progress, std::optional<SimplifyOptions>& simplification, StageRecord& record) {
   const FeatureOptions features = options.simplify ? options.simplify->features : FeatureOptions{};
-  const std::vector<NamedSelection> selections = with_given(options.sets, given, scan.triangles.size());
+  std::vector<NamedSelection> selections = with_given(options.sets, given, scan.triangles.size());
   std::optional<SurfaceFaces> faces;
+  if (options.idealise || options.name_faces) faces = find_faces(scan, features, progress);
+  if (options.name_faces) {
+    std::vector<NamedSet> named;
+    for (const SurfaceFace& face : faces->list) named.push_back({face.name, {0}});
+    selections = with_given(std::move(selections), named, scan.triangles.size());
+  }
   if (options.idealise) {
-    faces = find_faces(scan, features, progress);
     const IdealiseResult idealised = idealise(scan, *faces, *options.idealise);
     record.changes = {{"idealised", static_cast<double>(idealised.moved)},
                       {"not_idealised", static_cast<double>(idealised.left)},
@@ -382,7 +387,7 @@ void run_stages(SurfaceMesh scan, const SurfaceMesh* seen, const PipelineOptions
       hand_on_creases(enriched, made.creases, chain.simplify);
     });
   std::optional<SelectedScan> selected;
-  if (!options.sets.empty() || !options.given_sets.empty() || options.idealise)
+  if (!options.sets.empty() || !options.given_sets.empty() || options.name_faces || options.idealise)
     log.run("faces", [&](StageRecord& record) {
       const SurfaceMesh& whole = options.enrich ? enriched : result.scan;
       const std::vector<NamedSet> given = sets_on(whole, result.reference(), options.given_sets);
@@ -395,7 +400,10 @@ void run_stages(SurfaceMesh scan, const SurfaceMesh* seen, const PipelineOptions
                                              result.reference(), options);
   result.surface = std::move(made.surface);
   result.features = std::move(made.simplified.features);
-  if (selected) carry_sets(*selected, options.sets.size(), made.simplified, result);
+  if (selected) {
+    carry_sets(*selected, options.sets.size(), made.simplified, result);
+    result.faces = selected->faces;
+  }
   add_made_up_sets(options.enrich ? enriched : result.scan, origins, result);
   if (options.tetrahedralize) {
     result.volume_mesh = std::move(made.filled.mesh);

@@ -38,6 +38,7 @@ struct PipelineOptions {
   // Of the triangles of the scan as it is given: names that came with it. They are kept as sets, but for those that a
   // selection has taken, and those of all triangles, and expressions may name them.
   std::vector<NamedSet> given_sets = {};
+  bool name_faces = false;                // each face of the scan is a set: FACE_1, ...
   std::optional<Idealise> idealise = {};  // the scan before it is simplified
 };
 
@@ -73,6 +74,7 @@ struct PipelineResult {
   std::optional<TetMesh> volume_mesh;  // with the sets
   std::vector<NamedSet> face_sets;     // of `surface`; after those asked for, what was made up (made_up.hpp)
   std::vector<MadeSet> sets;           // the same in figures
+  SurfaceFaces faces;                  // of the scan as it came to simplification; none where nothing asked for them
   std::vector<StageRecord> stages;
   std::vector<WeakPlace> weak_places;  // of what was made; none of them is unusable
   std::vector<std::string> left_out;   // for want of time, improvements: "better tetrahedra"

@@ -10,6 +10,7 @@
 //   points {count, largest_distance, rms_distance, farthest_point},
 //   volume_mesh {nodes, tetrahedra, order, min_dihedral_deg, max_dihedral_deg, scaled_jacobian {min, mean}, edge_ratio,
 //                radius_edge_ratio, volume, inverted},
+//   faces [{name, kind, area, triangles, place, what its kind has}],
 //   sets [{name, kind, area, area_of_scan, area_difference_pct, triangles}],
 //   regions [{name, area, faces}], gates [{name, operator, value, limit, pass}]
 // A section that was not measured is left out; a figure that has no meaning, as the genus of an open surface, is null.

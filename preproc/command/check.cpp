@@ -93,7 +93,8 @@ int check(const CheckFlags& flags) {
                         .cloud = cloud ? &*cloud : nullptr,
                         .outliers = nullptr,
                         .primitives = nullptr,
-                        .sets = nullptr};
+                        .sets = nullptr,
+                        .faces = nullptr};
   StagedOutputs outputs;
   if (flags.leaks) {
     const std::vector<Opening> openings = find_openings(mesh.surface);

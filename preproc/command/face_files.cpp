@@ -110,7 +110,7 @@ std::string figures_of(const SurfaceFace& face) {
 
 }  // namespace
 
-Json to_json(const SurfaceFaces& faces) {
+Json face_list(const SurfaceFaces& faces) {
   Json all = Json::array();
   for (const SurfaceFace& face : faces.list) {
     Json entry{{"name", face.name},
@@ -139,7 +139,7 @@ Json to_json(const SurfaceFaces& faces) {
   return all;
 }
 
-std::string to_table(const SurfaceFaces& faces) {
+std::string face_table(const SurfaceFaces& faces) {
   std::string table;
   for (const SurfaceFace& face : faces.list) {
     char start[96];

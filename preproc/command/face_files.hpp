@@ -12,10 +12,10 @@ namespace scan2fea::command {
 
 // One object a face: name, kind, area, triangles, place, and what its kind has: normal and offset, axis, origin,
 // radius, hollow, tube_radius, half_angle_deg, mean_misfit, largest_misfit.
-Json to_json(const SurfaceFaces& faces);
+Json face_list(const SurfaceFaces& faces);
 
 // The same for a terminal, a line a face.
-std::string to_table(const SurfaceFaces& faces);
+std::string face_table(const SurfaceFaces& faces);
 
 bool is_face_file(const std::filesystem::path& file);
 

@@ -34,11 +34,11 @@ int list_faces(const FacesFlags& flags) {
   const SurfaceFaces faces = find_faces(mesh, flags.simplify.features, display.progress());
 
   StagedOutputs outputs;
-  const std::string table = to_table(faces);
+  const std::string table = face_table(faces);
   Json report{{"schema", "scan2fea/1"}, {"input", flags.common.input.string()}};
   if (flags.common.unit) report["unit"] = *flags.common.unit;
   report["noise"] = faces.noise;
-  report["faces"] = to_json(faces);
+  report["faces"] = face_list(faces);
   if (flags.common.json) outputs.add_json(report, *flags.common.json);
   if (flags.common.report) outputs.add_report(report, table, *flags.common.report);
   if (flags.output) outputs.add(*flags.output, face_file(mesh, faces, *flags.output));

@@ -1,5 +1,6 @@
 #include "preproc/command/figures.hpp"
 
+#include "preproc/command/face_files.hpp"
 #include "preproc/surface/repair/solid_volume.hpp"
 
 #include <nlohmann/json.hpp>
@@ -94,6 +95,7 @@ Json measure(const Subject& subject, const CommonFlags& flags) {
     json["made_up"] = list_changes(*subject.repaired, is_made_up);
   }
   if (subject.primitives != nullptr && !subject.primitives->empty()) json["primitives"] = to_json(*subject.primitives);
+  if (subject.faces != nullptr && !subject.faces->list.empty()) json["faces"] = face_list(*subject.faces);
   if (subject.sets != nullptr && !subject.sets->empty()) json["sets"] = to_json(*subject.sets);
   if (subject.stages != nullptr) json["stages"] = to_json(*subject.stages);
   return json;

@@ -25,6 +25,7 @@ struct Subject {
   const std::vector<Vec3>* outliers = nullptr;  // of it
   const std::vector<Primitive>* primitives = nullptr;
   const std::vector<MadeSet>* sets = nullptr;
+  const SurfaceFaces* faces = nullptr;  // of the scan
 };
 
 // Returns whether all gates pass. Stages --json and --report; says which gates failed.

@@ -371,7 +371,8 @@ void add_set_flag(CLI::App& command, std::vector<std::string>& sets) {
       ->allow_extra_args(false);
 }
 
-void add_idealise_flag(CLI::App& command, std::optional<Idealise>& idealise) {
+void add_face_flags(CLI::App& command, bool& name_faces, std::optional<Idealise>& idealise) {
+  command.add_flag("--name-faces", name_faces, "Each face of the scan is a set: FACE_1, ... (see scan2fea faces)");
   add_choice<std::optional<Idealise>>(
       command, "--idealise", idealise, {{"off", std::nullopt}, {"plane", Idealise::plane}, {"all", Idealise::all}},
       "Put the scan's vertices onto the planes, or onto all shapes, that its faces have within the noise; off by "

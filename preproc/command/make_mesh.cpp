@@ -132,7 +132,7 @@ void add_surface_flags(CLI::App& command, MakeMeshJob& job) {
   add_simplify_flags(command, *job.pipeline.simplify);
   add_feature_file_flags(command, job.features);
   add_set_flag(command, job.sets);
-  add_idealise_flag(command, job.pipeline.idealise);
+  add_face_flags(command, job.pipeline.name_faces, job.pipeline.idealise);
   add_effort_flag(command, job.pipeline);
 }
 
@@ -175,7 +175,8 @@ int make_mesh(MakeMeshJob job) {
                           .cloud = std::get_if<PointCloud>(&scan),
                           .outliers = &result.outliers,
                           .primitives = &result.primitives,
-                          .sets = &result.sets};
+                          .sets = &result.sets,
+                          .faces = &result.faces};
     if (!report_figures(subject, job.common, gates, display, outputs)) {
       outputs.commit();
       return 1;
