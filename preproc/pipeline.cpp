@@ -289,6 +289,36 @@ SelectedScan select(SurfaceMesh scan, const std::vector<NamedSet>& given, const 
 }
 
 // The sets on the surface that was made, whose triangles' order the boundary of the volume keeps.
+// Where corner nodes are not the surface's vertices, there are no edges of lines.
+ScanLines lines_of_scan(const PipelineResult& result, const FilledSurface& made, const PipelineOptions& options) {
+  ScanLines lines{
+      .edges = made.simplified.line_edges, .points = result.features.points, .segments = result.features.segments};
+  if (!made.filled.boundary_parent.empty()) lines.edges.clear();
+  if (!options.simplify) return lines;
+  const FeatureLines& kept = options.simplify->kept_lines;
+  const auto first = static_cast<std::uint32_t>(lines.points.size());
+  lines.points.insert(lines.points.end(), kept.points.begin(), kept.points.end());
+  for (const auto& [a, b] : kept.segments) lines.segments.push_back({a + first, b + first});
+  return lines;
+}
+
+void curve(const SurfaceMesh& scan, const ScanLines& lines, PipelineResult& result, StageRecord& record) {
+  TetMesh& mesh = *result.volume_mesh;
+  const std::size_t corners = mesh.nodes.size();
+  add_mid_edge_nodes(mesh);
+  const CurveResult curved = curve_mid_edge_nodes(mesh, TriangleTree(scan), {}, lines);
+  record.changes = {{"nodes_added", static_cast<double>(mesh.nodes.size() - corners)},
+                    {"curved_edges", static_cast<double>(curved.curved)},
+                    {"straight_edges_too_far", static_cast<double>(curved.too_far)},
+                    {"straight_edges_for_validity", static_cast<double>(curved.invalid)},
+                    {"least_jacobian_of_straight", curved.least_jacobian},
+                    {"curved_volume", curved.volume}};
+  for (std::size_t s = 0; s < result.sets.size(); ++s) {
+    result.sets[s].area = 0;
+    for (const std::uint32_t f : mesh.face_sets[s].members) result.sets[s].area += face_area(mesh, mesh.boundary[f]);
+  }
+}
+
 // The first `asked` of them must not vanish; of those that came with the scan, what is smaller than triangles may.
 void carry_sets(const SelectedScan& selected, std::size_t asked, const SimplifyResult& simplified,
                 PipelineResult& result) {
@@ -410,23 +440,8 @@ void run_stages(SurfaceMesh scan, const SurfaceMesh* seen, const PipelineOptions
     const std::vector<std::uint32_t>& parent = made.filled.boundary_parent;  // where the boundary was split
     result.volume_mesh->face_sets = parent.empty() ? result.face_sets : carried_sets(result.face_sets, parent);
     if (options.order == 2)
-      log.run("second order", [&](StageRecord& record) {
-        const std::size_t corners = result.volume_mesh->nodes.size();
-        add_mid_edge_nodes(*result.volume_mesh);
-        const CurveResult curved =
-            curve_mid_edge_nodes(*result.volume_mesh, TriangleTree(selected ? selected->mesh : result.scan));
-        record.changes = {{"nodes_added", static_cast<double>(result.volume_mesh->nodes.size() - corners)},
-                          {"curved_edges", static_cast<double>(curved.curved)},
-                          {"straight_edges_too_far", static_cast<double>(curved.too_far)},
-                          {"straight_edges_for_validity", static_cast<double>(curved.invalid)},
-                          {"least_jacobian_of_straight", curved.least_jacobian},
-                          {"curved_volume", curved.volume}};
-      });
-    for (std::size_t s = 0; s < result.sets.size() && options.order == 2; ++s) {
-      result.sets[s].area = 0;
-      for (const std::uint32_t f : result.volume_mesh->face_sets[s].members)
-        result.sets[s].area += face_area(*result.volume_mesh, result.volume_mesh->boundary[f]);
-    }
+      log.run("second order",
+              [&](StageRecord& record) { curve(start, lines_of_scan(result, made, chain), result, record); });
   }
 }
 

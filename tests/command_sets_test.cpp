@@ -105,9 +105,10 @@ TEST_F(CommandSets, OfAPartKeepTheirAreas) {
   for (const double noise : {0.0, 0.0002}) {
     const analytic::MachinedPart part = analytic::machined_part(1, noise);
     write_surface(part.scan, path("part.ply"));
-    const nlohmann::json report = run(
-        "'" + path("part.ply") +
-        "' --order 2 --set 'fixed=plane(z<0.5)' --set 'load=cylinder(z, r=6.5+-0.2, hole)' --set 'top=cylinder(x)'");
+    const nlohmann::json report =
+        run("'" + path("part.ply") +
+            "' --order 2 --deviation 0.1% --set 'fixed=plane(z<0.5)' --set 'load=cylinder(z, r=6.5+-0.2, "
+            "hole)' --set 'top=cylinder(x)' --set 'rim=plane(z>29.5)'");
     for (const auto& set : report["sets"]) EXPECT_LT(std::abs(set["area_difference_pct"].get<double>()), 0.1) << set;
     const double near = noise > 0 ? 0.15 : 0.05;
     expect_exactly("FIXED", [&](const Vec3& p) { return p.z() < near; });

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -46,6 +47,45 @@ TEST(CurvedMidEdgeNodes, MakeASphereTwentyTimesBetter) {
   EXPECT_EQ(result.too_far + result.invalid, 0u);
   EXPECT_GE(straight_error, 20 * std::abs(result.volume - truth));
   expect_all_valid(mesh);
+}
+
+TEST(CurvedMidEdgeNodes, OfARimGoToItsLine) {
+  // The middle of a rim's chord lies in the end face, which is no farther from it than nothing.
+  const auto rim_of = [](const SurfaceMesh& mesh) {
+    std::vector<std::array<std::uint32_t, 2>> rim;
+    for (const Triangle& t : mesh.triangles)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t a = t[k], b = t[(k + 1) % 3];
+        const auto on_rim = [&](std::uint32_t v) {
+          const Vec3& p = mesh.vertices[v];
+          return std::abs(p.z() - 2) < 1e-9 && std::hypot(p.x(), p.y()) > 1 - 1e-9;
+        };
+        if (a < b && on_rim(a) && on_rim(b)) rim.push_back({a, b});
+      }
+    std::sort(rim.begin(), rim.end());
+    return rim;
+  };
+  const SurfaceMesh surface = analytic::cylinder(1, 2, 16, 6), scan = analytic::cylinder(1, 2, 160, 60);
+  TetMesh mesh = tetrahedralize(surface).mesh;
+  add_mid_edge_nodes(mesh);
+  const ScanLines lines{rim_of(surface), scan.vertices, rim_of(scan)};
+  ASSERT_EQ(lines.edges.size(), 16U);
+  curve_mid_edge_nodes(mesh, TriangleTree(scan), {}, lines);
+  expect_all_valid(mesh);
+  std::size_t checked = 0;
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
+    for (std::size_t e = 0; e < 6; ++e) {
+      const auto [i, j] = tetrahedron_edges[e];
+      const auto ends =
+          std::minmax(mesh.tetrahedra[t][static_cast<std::size_t>(i)], mesh.tetrahedra[t][static_cast<std::size_t>(j)]);
+      const std::array<std::uint32_t, 2> edge{ends.first, ends.second};
+      if (!std::binary_search(lines.edges.begin(), lines.edges.end(), edge)) continue;
+      const Vec3& p = mesh.nodes[mesh.mid_edge_nodes[t][e]];
+      EXPECT_NEAR(std::hypot(p.x(), p.y()), 1, 1e-3);
+      EXPECT_NEAR(p.z(), 2, 1e-12);
+      ++checked;
+    }
+  EXPECT_GE(checked, 16U);
 }
 
 TEST(CurvedMidEdgeNodes, StayStraightWhereAnElementWouldTurnOver) {

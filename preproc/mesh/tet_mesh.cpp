@@ -27,13 +27,7 @@ Triangle boundary_mid_edge_nodes(const TetMesh& mesh, BoundaryFace f) {
   return nodes;
 }
 
-double face_area(const TetMesh& mesh, BoundaryFace f) {
-  const Triangle corners = boundary_triangle(mesh, f);
-  std::array<Vec3, 6> x;  // corners, then the middles of 12, 23, 31
-  for (std::size_t k = 0; k < 3; ++k) x[k] = mesh.nodes[corners[k]];
-  if (mesh.order() == 1) return (x[1] - x[0]).cross(x[2] - x[0]).norm() / 2;
-  const Triangle middles = boundary_mid_edge_nodes(mesh, f);
-  for (std::size_t k = 0; k < 3; ++k) x[3 + k] = mesh.nodes[middles[k]];
+double curved_area(const std::array<Vec3, 6>& x) {
   // Radon's rule: the centre, and three points on each of two triangles.
   const double root = std::sqrt(15.0), near = (6 - root) / 21, far = (6 + root) / 21;
   const auto at = [&](double u, double v) {
@@ -44,6 +38,16 @@ double face_area(const TetMesh& mesh, BoundaryFace f) {
   };
   const auto around = [&](double a) { return at(a, a) + at(1 - 2 * a, a) + at(a, 1 - 2 * a); };
   return (0.225 * at(1.0 / 3, 1.0 / 3) + (155 - root) / 1200 * around(near) + (155 + root) / 1200 * around(far)) / 2;
+}
+
+double face_area(const TetMesh& mesh, BoundaryFace f) {
+  const Triangle corners = boundary_triangle(mesh, f);
+  std::array<Vec3, 6> x;  // corners, then the middles of 12, 23, 31
+  for (std::size_t k = 0; k < 3; ++k) x[k] = mesh.nodes[corners[k]];
+  if (mesh.order() == 1) return (x[1] - x[0]).cross(x[2] - x[0]).norm() / 2;
+  const Triangle middles = boundary_mid_edge_nodes(mesh, f);
+  for (std::size_t k = 0; k < 3; ++k) x[3 + k] = mesh.nodes[middles[k]];
+  return curved_area(x);
 }
 
 std::vector<std::uint32_t> nodes_of_faces(const TetMesh& mesh, std::span<const std::uint32_t> faces) {

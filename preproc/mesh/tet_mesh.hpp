@@ -55,7 +55,11 @@ inline Triangle boundary_triangle(const TetMesh& mesh, BoundaryFace f) {
 // The nodes in the middle of the edges of `boundary_triangle`: 12, 23, 31. Precondition: the mesh is of second order.
 Triangle boundary_mid_edge_nodes(const TetMesh& mesh, BoundaryFace f);
 
-// Of the face as it is: of second order curved, by a rule of degree five, exact to about the fourth power of the bend.
+// Of a triangle of second order: corners, then the nodes between 12, 23 and 31. By a rule of degree five, exact to
+// about the fourth power of the bend.
+double curved_area(const std::array<Vec3, 6>& nodes);
+
+// Of the face as it is: of second order curved.
 double face_area(const TetMesh& mesh, BoundaryFace f);
 
 // All nodes of boundary faces, those in the middle of their edges too; sorted.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <tuple>
 
 namespace scan2fea {
@@ -21,6 +22,7 @@ struct BoundaryEdge {
   std::uint32_t node;
   double length;
   Vec3 straight;
+  std::array<std::uint32_t, 2> ends;  // corner nodes, the smaller one first
 };
 
 std::vector<BoundaryEdge> boundary_edges(const TetMesh& mesh) {
@@ -33,8 +35,10 @@ std::vector<BoundaryEdge> boundary_edges(const TetMesh& mesh) {
           std::find(corners.begin(), corners.end(), b) == corners.end())
         continue;
       const Tetrahedron& t = mesh.tetrahedra[f.tetrahedron];
-      const Vec3 &p = mesh.nodes[t[static_cast<std::size_t>(a)]], &q = mesh.nodes[t[static_cast<std::size_t>(b)]];
-      edges.push_back({mesh.mid_edge_nodes[f.tetrahedron][e], (q - p).norm(), (p + q) / 2});
+      const std::uint32_t i = t[static_cast<std::size_t>(a)], j = t[static_cast<std::size_t>(b)];
+      const Vec3 &p = mesh.nodes[i], &q = mesh.nodes[j];
+      edges.push_back(
+          {mesh.mid_edge_nodes[f.tetrahedron][e], (q - p).norm(), (p + q) / 2, {std::min(i, j), std::max(i, j)}});
     }
   }
   std::sort(edges.begin(), edges.end(), [](const BoundaryEdge& a, const BoundaryEdge& b) { return a.node < b.node; });
@@ -42,6 +46,14 @@ std::vector<BoundaryEdge> boundary_edges(const TetMesh& mesh) {
                           [](const BoundaryEdge& a, const BoundaryEdge& b) { return a.node == b.node; }),
               edges.end());
   return edges;
+}
+
+// A segment is a triangle without area.
+std::optional<TriangleTree> tree_of(const ScanLines& lines) {
+  if (lines.segments.empty()) return {};
+  SurfaceMesh flat{lines.points, {}};
+  for (const auto& [a, b] : lines.segments) flat.triangles.push_back({a, b, b});
+  return TriangleTree(flat);
 }
 
 // The least Jacobian of an element over its straight one, from below.
@@ -99,14 +111,17 @@ void add_mid_edge_nodes(TetMesh& mesh) {
   }
 }
 
-CurveResult curve_mid_edge_nodes(TetMesh& mesh, const TriangleTree& scan, const CurveOptions& options) {
+CurveResult curve_mid_edge_nodes(TetMesh& mesh, const TriangleTree& scan, const CurveOptions& options,
+                                 const ScanLines& lines) {
   CurveResult result;
+  const std::optional<TriangleTree> line_tree = tree_of(lines);
   const std::vector<BoundaryEdge> edges = boundary_edges(mesh);
   std::vector<bool> curved(mesh.nodes.size(), false);
   std::uint32_t hint = 0;
   for (const BoundaryEdge& edge : edges) {
-    const ClosestPoint nearest = scan.closest(edge.straight, hint);
-    hint = nearest.triangle;
+    const bool on_line = line_tree && std::binary_search(lines.edges.begin(), lines.edges.end(), edge.ends);
+    const ClosestPoint nearest = on_line ? line_tree->closest(edge.straight) : scan.closest(edge.straight, hint);
+    if (!on_line) hint = nearest.triangle;
     if (std::sqrt(nearest.squared_distance) > options.largest_displacement * edge.length) {
       ++result.too_far;
       continue;

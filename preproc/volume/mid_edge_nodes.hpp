@@ -4,6 +4,11 @@
 #include "preproc/mesh/tet_mesh.hpp"
 #include "quality/triangle_tree.hpp"
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
 namespace scan2fea {
 
 // Adds a node in the middle of every edge, shared by all tetrahedra around it, in the order of `tetrahedron_edges`.
@@ -28,10 +33,19 @@ struct CurveResult {
   double volume = 0;                // enclosed by the curved mesh
 };
 
-// Moves the mid-edge nodes of the boundary to the nearest points of the scan, where all elements stay valid by the
-// bound of min_jacobian_bound; the others stay in the middle of their edges. The mesh is of second order with
-// straight edges and positive tetrahedra; corners stay, so they should lie on the scan themselves. O(n log m) for m
-// scan triangles; deterministic. Throws nothing of its own.
-CurveResult curve_mid_edge_nodes(TetMesh& mesh, const TriangleTree& scan, const CurveOptions& options = {});
+// Edges of the boundary that stand for lines of the scan, and these: the middle of a chord of a rim lies in the plane
+// face inside of it, where the nearest point of the scan is.
+struct ScanLines {
+  std::vector<std::array<std::uint32_t, 2>> edges;     // corner nodes, the smaller one first; sorted
+  std::vector<Vec3> points;                            // of the scan
+  std::vector<std::array<std::uint32_t, 2>> segments;  // of points
+};
+
+// Moves the mid-edge nodes of the boundary to the nearest points of the scan, or of its lines, where all elements stay
+// valid by the bound of min_jacobian_bound; the others stay in the middle of their edges. The mesh is of second order
+// with straight edges and positive tetrahedra; corners stay, so they should lie on the scan themselves. O(n log m) for
+// m scan triangles; deterministic. Throws nothing of its own.
+CurveResult curve_mid_edge_nodes(TetMesh& mesh, const TriangleTree& scan, const CurveOptions& options = {},
+                                 const ScanLines& lines = {});
 
 }  // namespace scan2fea

@@ -1,6 +1,7 @@
 #include "preproc/surface/faces/face_figures.hpp"
 
 #include "preproc/mesh/named_sets.hpp"
+#include "preproc/mesh/tet_mesh.hpp"
 #include "preproc/surface/primitives/fit_shape.hpp"
 #include "preproc/surface/primitives/shape_set.hpp"
 
@@ -102,23 +103,24 @@ std::optional<Shape> fit_face(const SurfaceMesh& mesh, const std::vector<Index>&
   return best;
 }
 
-std::array<Vec3, 3> on_shape(const SurfaceMesh& mesh, Index triangle, const SurfaceFace& face) {
-  std::array<Vec3, 3> p;
-  for (std::size_t k = 0; k < 3; ++k) {
-    p[k] = mesh.vertices[mesh.triangles[triangle][k]];
-    if (face.shape) p[k] = face.shape->foot(p[k]);
-  }
-  return p;
+double area_on_shape(const SurfaceMesh& mesh, Index triangle, const SurfaceFace& face) {
+  std::array<Vec3, 6> p;
+  for (std::size_t k = 0; k < 3; ++k) p[k] = mesh.vertices[mesh.triangles[triangle][k]];
+  if (!face.shape) return area_vector(mesh, mesh.triangles[triangle]).norm() / 2;
+  for (std::size_t k = 0; k < 3; ++k) p[k] = face.shape->foot(p[k]);
+  if (face.shape->kind == ShapeKind::plane) return (p[1] - p[0]).cross(p[2] - p[0]).norm() / 2;
+  for (std::size_t k = 0; k < 3; ++k) p[3 + k] = face.shape->foot((p[k] + p[(k + 1) % 3]) / 2);
+  return curved_area(p);
 }
 
 void measure_face(const SurfaceMesh& mesh, const std::vector<bool>& is_border_vertex, SurfaceFace& face) {
   face.area = 0;
   face.place = Vec3::Zero();
   for (const Index f : face.triangles) {
-    const std::array<Vec3, 3> p = on_shape(mesh, f, face);
-    const double area = (p[1] - p[0]).cross(p[2] - p[0]).norm() / 2;
+    const auto& [a, b, c] = mesh.triangles[f];
+    const double area = area_on_shape(mesh, f, face);
     face.area += area;
-    face.place += area / 3 * (p[0] + p[1] + p[2]);
+    face.place += area / 3 * (mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]);
   }
   if (face.area > 0) face.place /= face.area;
   if (!face.shape) return;

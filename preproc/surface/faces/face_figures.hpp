@@ -14,8 +14,9 @@ namespace scan2fea {
 // nothing where none does. Which of the triangles' sides is outside their order tells.
 std::optional<Shape> fit_face(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& triangles, double sigma);
 
-// The triangle's corners on the face's shape: noise makes a surface larger than what it is of.
-std::array<Vec3, 3> on_shape(const SurfaceMesh& mesh, std::uint32_t triangle, const SurfaceFace& face);
+// Of a triangle on the face's shape, without noise, which makes a surface larger than what it is of, and curved, since
+// facets make it smaller. Of a free-form face, as it is.
+double area_on_shape(const SurfaceMesh& mesh, std::uint32_t triangle, const SurfaceFace& face);
 
 // Area, place and misfit of a face whose triangles and shape are known.
 void measure_face(const SurfaceMesh& mesh, const std::vector<bool>& is_border_vertex, SurfaceFace& face);

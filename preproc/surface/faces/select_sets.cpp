@@ -3,7 +3,6 @@
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/error_text.hpp"
 #include "preproc/surface/faces/face_choice.hpp"
-#include "preproc/surface/faces/face_figures.hpp"
 #include "preproc/surface/kernel/adjacency.hpp"
 #include "preproc/surface/sizing/split_long_edges.hpp"
 
@@ -231,13 +230,15 @@ NamedSet members(const Scan& scan, const Selector& selector, std::string name) {
   return set;
 }
 
-// Noise makes a surface larger: on a face of known shape the area is that of the triangle on the shape.
+// Noise makes a surface larger: on a face of known shape it is the area of facets with their corners on the shape.
 double area_of(const Scan& scan, const NamedSet& set) {
   double area = 0;
   for (const Index f : set.members) {
-    const SurfaceFace unknown{};
-    const auto p =
-        on_shape(scan.mesh, f, scan.faces.list.empty() ? unknown : scan.faces.list[scan.faces.of_triangle[f]]);
+    const auto& [a, b, c] = scan.mesh.triangles[f];
+    std::array<Vec3, 3> p{scan.mesh.vertices[a], scan.mesh.vertices[b], scan.mesh.vertices[c]};
+    if (!scan.faces.list.empty())
+      if (const auto& shape = scan.faces.list[scan.faces.of_triangle[f]].shape)
+        for (Vec3& x : p) x = shape->foot(x);
     area += (p[1] - p[0]).cross(p[2] - p[0]).norm() / 2;
   }
   return area;
