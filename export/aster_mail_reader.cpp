@@ -1,7 +1,7 @@
 #include "export/aster_mail.hpp"
 #include "export/line_reader.hpp"
 #include "export/raw_mesh.hpp"
-#include "export/unit_comment.hpp"
+#include "preproc/mesh/unit_comment.hpp"
 
 #include <unordered_map>
 

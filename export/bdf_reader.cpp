@@ -3,7 +3,7 @@
 #include "export/raw_mesh.hpp"
 #include "export/raw_sets.hpp"
 #include "export/set_names.hpp"
-#include "export/unit_comment.hpp"
+#include "preproc/mesh/unit_comment.hpp"
 
 #include <algorithm>
 #include <map>

@@ -1,7 +1,7 @@
 #include "export/cdb.hpp"
 #include "export/line_reader.hpp"
 #include "export/raw_mesh.hpp"
-#include "export/unit_comment.hpp"
+#include "preproc/mesh/unit_comment.hpp"
 
 #include <algorithm>
 #include <array>

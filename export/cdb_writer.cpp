@@ -1,7 +1,7 @@
 #include "export/cdb.hpp"
 #include "export/set_names.hpp"
 #include "export/text_output.hpp"
-#include "export/unit_comment.hpp"
+#include "preproc/mesh/unit_comment.hpp"
 #include "preproc/mesh/length_unit.hpp"
 #include "preproc/mesh/output_file.hpp"
 

@@ -2,7 +2,7 @@
 #include "export/line_reader.hpp"
 #include "export/raw_mesh.hpp"
 #include "export/set_names.hpp"
-#include "export/unit_comment.hpp"
+#include "preproc/mesh/unit_comment.hpp"
 
 #include <map>
 

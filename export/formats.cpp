@@ -25,6 +25,7 @@ namespace {
 constexpr Holdings all{.node_sets = true, .face_sets = true, .element_sets = true, .unit = true, .second_order = true};
 constexpr Holdings sets_and_unit{.node_sets = true, .face_sets = true, .unit = true};  // of a surface
 
+constexpr Holdings only_unit{.unit = true};
 constexpr Holdings of_elmer{.face_sets = true, .element_sets = true, .unit = true, .second_order = true};
 constexpr Holdings of_su2{.face_sets = true, .unit = true};
 
@@ -43,10 +44,10 @@ constexpr auto formats = std::to_array<FileFormat>({
     {".su2", "SU2", of_su2, {}, write_su2, nullptr, read_su2},
     {".vtp", "VTK", {}, sets_and_unit, nullptr, write_vtp, read_vtk_xml},
     {".vtk", "VTK, legacy", Holdings{.second_order = true}, Holdings{}, nullptr, nullptr, read_vtk_legacy},
-    {".stl", "STL", {}, Holdings{}, nullptr, write_plain_surface, read_plain_surface},
-    {".obj", "Wavefront", {}, Holdings{}, nullptr, write_plain_surface, read_plain_surface},
-    {".ply", "Stanford", {}, Holdings{}, nullptr, write_plain_surface, read_plain_surface},
-    {".off", "Geomview", {}, Holdings{}, nullptr, write_plain_surface, read_plain_surface},
+    {".stl", "STL", {}, only_unit, nullptr, write_plain_surface, read_plain_surface},
+    {".obj", "Wavefront", {}, only_unit, nullptr, write_plain_surface, read_plain_surface},
+    {".ply", "Stanford", {}, only_unit, nullptr, write_plain_surface, read_plain_surface},
+    {".off", "Geomview", {}, only_unit, nullptr, write_plain_surface, read_plain_surface},
 });
 
 std::string list_of(bool (*wanted)(const FileFormat&)) {

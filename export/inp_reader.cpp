@@ -1,7 +1,7 @@
 #include "export/inp.hpp"
 #include "export/raw_mesh.hpp"
 #include "export/raw_sets.hpp"
-#include "export/unit_comment.hpp"
+#include "preproc/mesh/unit_comment.hpp"
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/input_file.hpp"
 

@@ -2,7 +2,7 @@
 #include "export/set_names.hpp"
 #include "export/smallest_determinant.hpp"
 #include "export/text_output.hpp"
-#include "export/unit_comment.hpp"
+#include "preproc/mesh/unit_comment.hpp"
 #include "preproc/mesh/output_file.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "export/gmsh_elements.hpp"
 #include "export/msh.hpp"
 #include "export/raw_mesh.hpp"
-#include "export/unit_comment.hpp"
+#include "preproc/mesh/unit_comment.hpp"
 #include "preproc/mesh/byte_order.hpp"
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/input_file.hpp"

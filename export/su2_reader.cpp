@@ -2,7 +2,7 @@
 #include "export/raw_mesh.hpp"
 #include "export/set_names.hpp"
 #include "export/su2.hpp"
-#include "export/unit_comment.hpp"
+#include "preproc/mesh/unit_comment.hpp"
 
 namespace scan2fea {
 namespace {

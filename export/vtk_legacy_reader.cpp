@@ -1,4 +1,4 @@
-#include "export/unit_comment.hpp"
+#include "preproc/mesh/unit_comment.hpp"
 #include "export/vtk.hpp"
 #include "export/vtk_cells.hpp"
 #include "preproc/mesh/byte_order.hpp"

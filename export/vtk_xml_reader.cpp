@@ -1,4 +1,4 @@
-#include "export/unit_comment.hpp"
+#include "preproc/mesh/unit_comment.hpp"
 #include "export/vtk.hpp"
 #include "export/vtk_cells.hpp"
 #include "export/vtk_xml.hpp"

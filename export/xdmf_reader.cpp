@@ -1,6 +1,6 @@
 #include "export/raw_mesh.hpp"
 #include "export/set_names.hpp"
-#include "export/unit_comment.hpp"
+#include "preproc/mesh/unit_comment.hpp"
 #include "export/vtk_cells.hpp"
 #include "export/vtk_xml.hpp"
 #include "export/xdmf.hpp"

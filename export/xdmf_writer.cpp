@@ -1,6 +1,6 @@
 #include "export/set_names.hpp"
 #include "export/text_output.hpp"
-#include "export/unit_comment.hpp"
+#include "preproc/mesh/unit_comment.hpp"
 #include "export/vtk_cells.hpp"
 #include "export/xdmf.hpp"
 #include "preproc/mesh/output_file.hpp"

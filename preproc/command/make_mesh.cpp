@@ -1,6 +1,8 @@
 #include "preproc/command/make_mesh.hpp"
 
 #include "export/formats.hpp"
+#include "export/surface_files.hpp"
+#include "export/units.hpp"
 #include "preproc/command/early_end.hpp"
 #include "preproc/command/figures.hpp"
 #include "preproc/command/input_warnings.hpp"
@@ -73,7 +75,19 @@ void tell_what_was_left_out(const PipelineResult& result, const MakeMeshJob& job
   std::fprintf(stderr, "scan2fea: warning: %s: the time limit left out %s\n", job.common.input.c_str(), list.c_str());
 }
 
-Scan read_input(const MakeMeshJob& job) {
+// In the formats of meshes, too. The unit is what the file says or the user, who must not contradict one another.
+Scan read_input(MakeMeshJob& job) {
+  const std::filesystem::path& input = job.common.input;
+  const FileFormat* format = find_format(input);
+  const bool is_plain = format == nullptr || format->read == read_plain_surface;
+  MeshFile read = is_plain ? MeshFile{} : read_mesh(input);
+  for (const std::string& warning : read.warnings)
+    std::fprintf(stderr, "scan2fea: warning: %s: %s\n", input.c_str(), warning.c_str());
+  if (auto* volume = std::get_if<TetMesh>(&read.mesh)) read.mesh = named_boundary(*volume, read.warnings);
+  auto& surface = std::get<NamedSurface>(read.mesh);
+  const std::string unit = settled_unit(is_plain ? unit_in_head(input) : surface.unit, job.common.unit, input.string());
+  if (!unit.empty()) job.common.unit = unit;
+  if (!is_plain) return std::move(surface.mesh);
   if (job.takes_clouds == TakesClouds::no) return read_surface(job.common.input);
   if (job.takes_clouds == TakesClouds::only) return read_cloud(job.common.input);
   return read_scan(job.common.input);
@@ -142,11 +156,11 @@ int make_mesh(MakeMeshJob job) {
   require_known_format(job);
   require_writable_outputs(job);
   const std::vector<Gate> gates = parse_gates(job.common);
+
+  Scan scan = read_input(job);
   parse_sets(job);
   if (!job.enrich_domain.empty())
     job.pipeline.enrich_domain = parse_selection("domain=" + job.enrich_domain, job.common.unit.value_or(""));
-
-  Scan scan = read_input(job);
   display.line(describe(scan, job.common));
   for (const std::string& warning : warnings_of(scan, job.common))
     std::fprintf(stderr, "scan2fea: warning: %s: %s\n", job.common.input.c_str(), warning.c_str());
@@ -189,14 +203,13 @@ int make_mesh(MakeMeshJob job) {
     TetMesh mesh = *result.volume_mesh;
     mesh.unit = job.common.unit.value_or("");
     for (const std::string& note : write_volume(mesh, job.output, options)) display.line("warning: " + note);
-  } else if (is_surface_file(job.output)) {
-    write_surface(result.surface, job.output, result.measured_vertices);
+  } else if (result.measured_vertices && is_surface_file(job.output)) {
+    write_surface(result.surface, job.output,
+                  {.measured = result.measured_vertices, .unit = job.common.unit.value_or(""), .ascii = false});
   } else {
-    write_surface(NamedSurface{.mesh = result.surface,
-                               .node_sets = {},
-                               .face_sets = result.face_sets,
-                               .unit = job.common.unit.value_or("")},
-                  job.output, options);
+    const NamedSurface surface{
+        .mesh = result.surface, .node_sets = {}, .face_sets = result.face_sets, .unit = job.common.unit.value_or("")};
+    for (const std::string& note : write_surface(surface, job.output, options)) display.line("warning: " + note);
   }
   outputs.commit();
   ends_by_itself_now();

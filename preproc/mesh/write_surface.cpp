@@ -4,6 +4,7 @@
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/file_extension.hpp"
 #include "preproc/mesh/output_file.hpp"
+#include "preproc/mesh/unit_comment.hpp"
 
 #include <charconv>
 #include <cmath>
@@ -51,19 +52,50 @@ class Buffer {
   std::string bytes_;
 };
 
-void write_stl(const SurfaceMesh& mesh, std::optional<std::size_t>, Buffer& out) {
-  std::string header = "written by scan2fea";  // must not begin with "solid", by which ASCII is told
+void require_float(double coordinate) {
+  constexpr float largest = std::numeric_limits<float>::max();
+  if (std::abs(coordinate) > static_cast<double>(largest))
+    throw IoError({"a coordinate does not fit the 32 bits of STL",
+                   {},
+                   std::to_string(coordinate),
+                   std::to_string(largest),
+                   "PLY, OBJ or OFF, or another unit"});
+}
+
+std::string about(const SurfaceFileOptions& options) {
+  return "written by scan2fea" + (options.unit.empty() ? "" : ", " + unit_comment(options.unit));
+}
+
+void write_ascii_stl(const SurfaceMesh& mesh, const SurfaceFileOptions& options, Buffer& out) {
+  const auto point = [&](const Vec3& p) {
+    for (const double coordinate : p) {
+      require_float(coordinate);
+      out.text(" ").number(static_cast<float>(coordinate));
+    }
+    out.text("\n");
+  };
+  out.text("solid ").text(about(options)).text("\n");
+  for (const Triangle& t : mesh.triangles) {
+    out.text("facet normal");
+    point(area_vector(mesh, t).stableNormalized());
+    out.text("outer loop\n");
+    for (const std::uint32_t v : t) {
+      out.text("vertex");
+      point(mesh.vertices[v]);
+    }
+    out.text("endloop\nendfacet\n");
+  }
+  out.text("endsolid\n");
+}
+
+void write_stl(const SurfaceMesh& mesh, const SurfaceFileOptions& options, Buffer& out) {
+  if (options.ascii) return write_ascii_stl(mesh, options, out);
+  std::string header = about(options);  // must not begin with "solid", by which ASCII is told
   header.resize(80, ' ');
   out.text(header).binary(static_cast<std::uint32_t>(mesh.triangles.size()));
   const auto point = [&](const Vec3& p) {
     for (const double coordinate : p) {
-      constexpr float largest = std::numeric_limits<float>::max();
-      if (std::abs(coordinate) > static_cast<double>(largest))
-        throw IoError({"a coordinate does not fit the 32 bits of STL",
-                       {},
-                       std::to_string(coordinate),
-                       std::to_string(largest),
-                       "PLY, OBJ or OFF, or another unit"});
+      require_float(coordinate);
       out.binary(static_cast<float>(coordinate));
     }
   };
@@ -74,7 +106,8 @@ void write_stl(const SurfaceMesh& mesh, std::optional<std::size_t>, Buffer& out)
   }
 }
 
-void write_obj(const SurfaceMesh& mesh, std::optional<std::size_t>, Buffer& out) {
+void write_obj(const SurfaceMesh& mesh, const SurfaceFileOptions& options, Buffer& out) {
+  if (!options.unit.empty()) out.text("# ").text(unit_comment(options.unit)).text("\n");
   for (const Vec3& p : mesh.vertices) {
     out.text("v");
     for (const double coordinate : p) out.text(" ").number(coordinate);
@@ -87,15 +120,32 @@ void write_obj(const SurfaceMesh& mesh, std::optional<std::size_t>, Buffer& out)
   }
 }
 
+void write_ascii_elements(const SurfaceMesh& mesh, std::optional<std::size_t> measured, Buffer& out) {
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const Vec3& p = mesh.vertices[v];
+    out.number(p[0]).text(" ").number(p[1]).text(" ").number(p[2]);
+    if (measured) out.text(v < *measured ? " 1" : " 0");
+    out.text("\n");
+  }
+  for (const Triangle& t : mesh.triangles) {
+    out.text("3");
+    for (const std::uint32_t v : t) out.text(" ").number(v);
+    out.text("\n");
+  }
+}
+
 // `int` and not `uint` for indices: it is what all readers know.
-void write_ply(const SurfaceMesh& mesh, std::optional<std::size_t> measured, Buffer& out) {
-  out.text("ply\nformat binary_little_endian 1.0\ncomment written by scan2fea\nelement vertex ");
+void write_ply(const SurfaceMesh& mesh, const SurfaceFileOptions& options, Buffer& out) {
+  const auto& measured = options.measured;
+  out.text("ply\nformat ").text(options.ascii ? "ascii" : "binary_little_endian").text(" 1.0\ncomment ");
+  out.text(about(options)).text("\nelement vertex ");
   out.number(mesh.vertices.size());
   out.text("\nproperty double x\nproperty double y\nproperty double z\n");
   if (measured) out.text("property uchar measured\n");
   out.text("element face ");
   out.number(mesh.triangles.size());
   out.text("\nproperty list uchar int vertex_indices\nend_header\n");
+  if (options.ascii) return write_ascii_elements(mesh, measured, out);
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     for (const double coordinate : mesh.vertices[v]) out.binary(coordinate);
     if (measured) out.binary(static_cast<std::uint8_t>(v < *measured));
@@ -106,8 +156,10 @@ void write_ply(const SurfaceMesh& mesh, std::optional<std::size_t> measured, Buf
   }
 }
 
-void write_off(const SurfaceMesh& mesh, std::optional<std::size_t>, Buffer& out) {
-  out.text("OFF\n").number(mesh.vertices.size()).text(" ").number(mesh.triangles.size()).text(" 0\n");
+void write_off(const SurfaceMesh& mesh, const SurfaceFileOptions& options, Buffer& out) {
+  out.text("OFF\n");
+  if (!options.unit.empty()) out.text("# ").text(unit_comment(options.unit)).text("\n");
+  out.number(mesh.vertices.size()).text(" ").number(mesh.triangles.size()).text(" 0\n");
   for (const Vec3& p : mesh.vertices) out.number(p[0]).text(" ").number(p[1]).text(" ").number(p[2]).text("\n");
   for (const Triangle& t : mesh.triangles) {
     out.text("3");
@@ -116,7 +168,7 @@ void write_off(const SurfaceMesh& mesh, std::optional<std::size_t>, Buffer& out)
   }
 }
 
-using Writer = void (*)(const SurfaceMesh&, std::optional<std::size_t> measured, Buffer&);
+using Writer = void (*)(const SurfaceMesh&, const SurfaceFileOptions&, Buffer&);
 
 // Null where the extension names no surface format.
 Writer writer_for(const std::filesystem::path& file) {
@@ -138,14 +190,14 @@ std::string_view known_surface_formats() {
   return ".stl, .obj, .ply or .off";
 }
 
-void write_surface(const SurfaceMesh& mesh, const std::filesystem::path& file, std::optional<std::size_t> measured) {
+void write_surface(const SurfaceMesh& mesh, const std::filesystem::path& file, const SurfaceFileOptions& options) {
   const Writer write = writer_for(file);
   if (write == nullptr)
     throw WrongUsage({"the extension of the output names no surface format", file.string(), lower_case_extension(file),
                       std::string(known_surface_formats()), "one of these"});
   OutputFile output(file);
   Buffer buffer(output.stream());
-  write(mesh, measured, buffer);
+  write(mesh, options, buffer);
   buffer.flush();
   output.commit();
 }

@@ -1,4 +1,4 @@
-#include "export/unit_comment.hpp"
+#include "preproc/mesh/unit_comment.hpp"
 
 #include <cctype>
 
