@@ -38,13 +38,13 @@ TEST_F(InputWarnings, NameTheStepOfCoarseCoordinates) {
   EXPECT_THAT(said_of(ball), Not(HasSubstr("warning")));
 }
 
-TEST_F(InputWarnings, DoubtAUnitThatCannotBe) {
-  const SurfaceMesh ball = analytic::sphere(1e-4, 3), large = analytic::sphere(1e6, 3);
-  EXPECT_THAT(said_of(ball, "--unit mm"), HasSubstr("less than a wave of light: is --unit right?"));
-  EXPECT_THAT(said_of(ball, "--unit m"), Not(HasSubstr("--unit right?")));
-  EXPECT_THAT(said_of(large, "--unit m"), HasSubstr("more than a hundred kilometres: is --unit right?"));
-  EXPECT_THAT(said_of(large, "--unit mm"), Not(HasSubstr("--unit right?")));
-  EXPECT_THAT(said_of(large), Not(HasSubstr("--unit right?"))) << "any size is plausible in some unit";
+TEST_F(InputWarnings, DoubtAnImplausibleSize) {
+  const SurfaceMesh horse = analytic::sphere(6e-2, 3), bracket = analytic::sphere(1e3, 3);  // 0.2 and 3464 across
+  EXPECT_THAT(said_of(horse, "--unit mm"), HasSubstr("0.208 mm across, which is less than a millimetre"));
+  EXPECT_THAT(said_of(horse, "--unit m"), Not(HasSubstr("right?")));
+  EXPECT_THAT(said_of(bracket, "--unit m"), HasSubstr("more than a kilometre: is the unit right?"));
+  EXPECT_THAT(said_of(bracket, "--unit mm"), Not(HasSubstr("right?")));
+  EXPECT_THAT(said_of(bracket), Not(HasSubstr("right?"))) << "any size is plausible in some unit";
 }
 
 }  // namespace

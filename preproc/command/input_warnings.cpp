@@ -1,10 +1,9 @@
 #include "preproc/command/input_warnings.hpp"
 
+#include "export/units.hpp"
 #include "preproc/mesh/coordinate_step.hpp"
 #include "preproc/mesh/error_text.hpp"
 #include "preproc/mesh/stair_steps.hpp"
-
-#include <map>
 
 namespace scan2fea::command {
 namespace {
@@ -43,17 +42,9 @@ void add_stairs(const StairSteps& steps, std::vector<std::string>& warnings) {
       (voxels ? "--deviation " + step + ", the default here, or more" : "--feature-angle off --deviation " + step));
 }
 
-// Files carry no unit, and a solver takes any, so that only what cannot be is told: no scanner resolves what is smaller
-// than the waves of light, and a hundred kilometres are curved, so that they are no solid in Cartesian coordinates.
-void add_impossible_unit(const std::vector<Vec3>& points, const std::string& unit, std::vector<std::string>& warnings) {
-  static const std::map<std::string, double> metres{{"um", 1e-6}, {"mm", 1e-3},   {"cm", 1e-2},
-                                                    {"m", 1},     {"in", 0.0254}, {"ft", 0.3048}};
-  constexpr double waves_of_light = 0.5e-6, curved_earth = 1e5;
-  const double diagonal = bounding_box(points).diagonal(), size = diagonal * metres.at(unit);
-  if (size >= waves_of_light && size <= curved_earth) return;
-  warnings.push_back("the whole scan is " + rounded(diagonal) + " " + unit + " across, which is " +
-                     (size < waves_of_light ? "less than a wave of light" : "more than a hundred kilometres") +
-                     ": is --unit right?");
+void add_implausible_size(const std::vector<Vec3>& points, const std::string& unit,
+                          std::vector<std::string>& warnings) {
+  if (const auto doubt = implausible_size(bounding_box(points).diagonal(), unit)) warnings.push_back(*doubt);
 }
 
 }  // namespace
@@ -64,13 +55,13 @@ std::vector<std::string> input_warnings(const SurfaceMesh& scan, const std::opti
     add_stairs(*steps, warnings);
   else
     add_coarse_coordinates(scan, warnings);
-  if (unit) add_impossible_unit(scan.vertices, *unit, warnings);
+  if (unit) add_implausible_size(scan.vertices, *unit, warnings);
   return warnings;
 }
 
 std::vector<std::string> input_warnings(const PointCloud& cloud, const std::optional<std::string>& unit) {
   std::vector<std::string> warnings;
-  if (unit) add_impossible_unit(cloud.points, *unit, warnings);
+  if (unit) add_implausible_size(cloud.points, *unit, warnings);
   return warnings;
 }
 
