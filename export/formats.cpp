@@ -9,6 +9,7 @@
 #include "export/msh.hpp"
 #include "export/su2.hpp"
 #include "export/surface_files.hpp"
+#include "export/threemf.hpp"
 #include "export/unv.hpp"
 #include "export/vtk.hpp"
 #include "export/xdmf.hpp"
@@ -44,6 +45,7 @@ constexpr auto formats = std::to_array<FileFormat>({
     {".su2", "SU2", of_su2, {}, write_su2, nullptr, read_su2},
     {".vtp", "VTK", {}, sets_and_unit, nullptr, write_vtp, read_vtk_xml},
     {".vtk", "VTK, legacy", Holdings{.second_order = true}, Holdings{}, nullptr, nullptr, read_vtk_legacy},
+    {".3mf", "3MF", {}, Holdings{.face_sets = true, .unit = true}, nullptr, nullptr, read_3mf},
     {".stl", "STL", {}, only_unit, nullptr, write_plain_surface, read_plain_surface},
     {".obj", "Wavefront", {}, only_unit, nullptr, write_plain_surface, read_plain_surface},
     {".ply", "Stanford", {}, only_unit, nullptr, write_plain_surface, read_plain_surface},

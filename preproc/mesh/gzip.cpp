@@ -12,10 +12,10 @@ struct Expander::State {
   bool at_end = false, broken = false;
 };
 
-// 16: with gzip's head and checksum.
-Expander::Expander(std::string_view bytes) : state_(std::make_unique<State>()) {
+// To zlib 16 means with gzip's head and checksum, a negative number without any.
+Expander::Expander(std::string_view bytes, Wrapping wrapping) : state_(std::make_unique<State>()) {
   state_->rest = bytes;
-  state_->broken = inflateInit2(&state_->stream, 16 + MAX_WBITS) != Z_OK;
+  state_->broken = inflateInit2(&state_->stream, wrapping == Wrapping::gzip ? 16 + MAX_WBITS : -MAX_WBITS) != Z_OK;
 }
 
 Expander::~Expander() {

@@ -1,4 +1,4 @@
-// What gzip compressed.
+// What gzip compressed, and what deflate did within another file.
 #pragma once
 
 #include <memory>
@@ -7,10 +7,12 @@
 
 namespace scan2fea::gzip {
 
+enum class Wrapping { gzip, none };
+
 // Gives the bytes that were compressed, piece by piece. Precondition: `bytes` outlive it.
 class Expander {
  public:
-  explicit Expander(std::string_view bytes);
+  explicit Expander(std::string_view bytes, Wrapping wrapping = Wrapping::gzip);
   ~Expander();
   Expander(const Expander&) = delete;
   Expander& operator=(const Expander&) = delete;

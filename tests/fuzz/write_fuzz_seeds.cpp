@@ -1,5 +1,6 @@
 // write_fuzz_seeds FOLDER: a few first inputs for each fuzz target, in FOLDER/TARGET. Binary files come from our own
 // writers; texts show what those do not write.
+#include "export/formats.hpp"
 #include "export/inp.hpp"
 #include "export/vtk.hpp"
 #include "preproc/mesh/write_surface.hpp"
@@ -74,6 +75,39 @@ void write_clouds(const fs::path& folder) {
           las_file(points, format < 6 ? 2 : 4, format));
 }
 
+// Two elements, as small as it can be, with sets of all kinds.
+void write_meshes_with_sets(const fs::path& folder) {
+  TetMesh mesh;
+  mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
+  mesh.tetrahedra = {{0, 1, 2, 3}, {1, 4, 2, 3}};
+  mesh.boundary = find_boundary(mesh.tetrahedra);
+  mesh.node_sets = {{"n", {0, 4}}};
+  mesh.face_sets = {{"f", {0, 5}}, {"g", {0, 1}}};
+  mesh.element_sets = {{"a", {0}}, {"b", {1}}};
+  mesh.unit = "mm";
+  NamedSurface surface{
+      .mesh = analytic::box({1, 1, 1}, 1), .node_sets = {{"n", {0, 4}}}, .face_sets = {{"f", {0, 5}}}, .unit = "mm"};
+  for (const FileFormat& format : file_formats()) {
+    const std::string name(format.extension.substr(1));
+    const fs::path target = folder / ("read_" + name);
+    if (!fs::exists(target)) continue;  // MED's reader is not ours
+    if (format.write_volume != nullptr) write_volume(mesh, target / ("volume." + name));
+    if (format.write_surface != nullptr) write_surface(surface, target / ("surface." + name));
+  }
+  fs::create_directories(folder / "elmer");
+  write_volume(mesh, folder / "elmer/mesh.header");
+  std::string parts;
+  for (const char* name : {"mesh.nodes", "mesh.elements", "mesh.boundary", "mesh.names"})
+    parts += contents(folder / "elmer" / name) + "\f";
+  write(folder / "read_elmer/parts", parts);
+  const std::string points = "POINTS 4 float\n0 0 0 1 0 0 0 1 0 0 0 1\n";
+  write(folder / "read_vtk/grid.vtk", "# vtk DataFile Version 3.0\na\nASCII\nDATASET UNSTRUCTURED_GRID\n" + points +
+                                          "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n");
+  write(folder / "read_vtk/faces.vtk", "# vtk DataFile Version 5.1\na\nASCII\nDATASET POLYDATA\n" + points +
+                                           "METADATA\nINFORMATION 0\n\nPOLYGONS 2 4\nOFFSETS vtktypeint64\n0 4\n"
+                                           "CONNECTIVITY vtktypeint64\n0 1 2 3\n");
+}
+
 void write_volumes(const fs::path& folder) {
   for (const int order : {1, 2}) {
     const TetMesh mesh = analytic::tetrahedra_of_box({1, 1, 1}, {1, 1, 1}, order);
@@ -81,6 +115,7 @@ void write_volumes(const fs::path& folder) {
     write_inp(mesh, folder / "read_inp" / (name + ".inp"));
     write_vtu(mesh, folder / "read_vtu" / (name + ".vtu"));
   }
+  write_meshes_with_sets(folder);
   write(folder / "read_inp/forms.inp",
         "** a\n*HEADING\nb\n*Node, nset=c\n 7, 0., 0, 0\n5,1.D0,0,0\n3,0,1,\n9,0,0,1e0\n*ELEMENT, TYPE=S3, ELSET=d\n"
         "1, 7, 5, 3\n*ELEMENT,TYPE=DC3D4\n2, 7, 5,\n 3, 9\n*STEP\n*STATIC\n*END STEP\n");
@@ -134,8 +169,10 @@ void write_soups(const fs::path& folder) {
 
 void write_seeds(const fs::path& folder) {
   for (const char* target :
-       {"read_stl", "read_obj", "read_ply", "read_off", "read_xyz", "read_ptx", "read_pcd", "read_las", "read_inp",
-        "read_msh", "read_vtu", "read_feature_lines", "read_configuration", "repair"})
+       {"read_stl",  "read_obj", "read_ply",   "read_off",           "read_xyz",           "read_ptx",
+        "read_pcd",  "read_las", "read_inp",   "read_msh",           "read_vtu",           "read_vtp",
+        "read_vtk",  "read_3mf", "read_bdf",   "read_unv",           "read_xdmf",          "read_cdb",
+        "read_mail", "read_su2", "read_elmer", "read_feature_lines", "read_configuration", "repair"})
     fs::create_directories(folder / target);
   write_surfaces(folder);
   write_clouds(folder);
