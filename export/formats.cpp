@@ -24,6 +24,12 @@ namespace scan2fea {
 namespace {
 
 constexpr Holdings all{.node_sets = true, .face_sets = true, .element_sets = true, .unit = true, .second_order = true};
+constexpr Holdings of_viewers{.node_sets = true,
+                              .face_sets = true,
+                              .element_sets = true,
+                              .unit = true,
+                              .second_order = true,
+                              .element_fields = true};
 constexpr Holdings sets_and_unit{.node_sets = true, .face_sets = true, .unit = true};  // of a surface
 
 constexpr Holdings only_unit{.unit = true};
@@ -33,12 +39,12 @@ constexpr Holdings of_su2{.face_sets = true, .unit = true};
 constexpr auto formats = std::to_array<FileFormat>({
     {".inp", "Abaqus, CalculiX", all, sets_and_unit, write_inp, write_inp, read_inp},
     {".msh", "Gmsh", all, sets_and_unit, write_msh, write_msh, read_msh},
-    {".vtu", "VTK", all, sets_and_unit, write_vtu, write_vtu, read_vtk_xml},
+    {".vtu", "VTK", of_viewers, sets_and_unit, write_vtu, write_vtu, read_vtk_xml},
     {".bdf", "Nastran", all, sets_and_unit, write_bdf, write_bdf, read_bdf},
     {".nas", "Nastran", all, sets_and_unit, write_bdf, write_bdf, read_bdf},
     {".unv", "I-DEAS, Salome", all, sets_and_unit, write_unv, write_unv, read_unv},
     {".med", "Salome, Code_Aster", all, sets_and_unit, write_med, write_med, read_med},
-    {".xdmf", "DOLFINx", all, {}, write_xdmf, nullptr, read_xdmf},
+    {".xdmf", "DOLFINx", of_viewers, {}, write_xdmf, nullptr, read_xdmf},
     {".mail", "Code_Aster", all, {}, write_mail, nullptr, read_mail},
     {".cdb", "ANSYS", all, {}, write_cdb, nullptr, read_cdb},
     {".header", "Elmer", of_elmer, {}, write_elmer, nullptr, read_elmer},

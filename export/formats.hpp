@@ -20,6 +20,7 @@ struct Holdings {
   bool element_sets = false;
   bool unit = false;
   bool second_order = false;
+  bool element_fields = false;  // see FileOptions
 };
 
 struct FileFormat {

@@ -1,5 +1,6 @@
 #include "export/formats.hpp"
 #include "export/units.hpp"
+#include "preproc/command/element_fields.hpp"
 #include "preproc/command/flags.hpp"
 #include "preproc/command/output_files.hpp"
 #include "preproc/command/progress_display.hpp"
@@ -57,10 +58,10 @@ int convert(const ConvertFlags& flags) {
   MeshFile read = read_mesh(flags.input);
   for (const std::string& warning : read.warnings) tell({flags.input.string() + ": " + warning});
   settle_unit(read, flags, display);
-  const FileOptions options{.provenance = flags.input.filename().string(),
-                            .msh_version = flags.msh_version,
-                            .fields = {},
-                            .ascii = flags.ascii};
+  FileOptions options{.provenance = flags.input.filename().string(),
+                      .msh_version = flags.msh_version,
+                      .fields = {},
+                      .ascii = flags.ascii};
   if (const auto* surface = std::get_if<NamedSurface>(&read.mesh)) {
     if (!writes_surface(flags.output))
       throw WrongUsage({.what = "a surface holds no tetrahedra to write",
@@ -70,6 +71,7 @@ int convert(const ConvertFlags& flags) {
                         .advice = "scan2fea tetrahedralize, or scan2fea run"});
     tell(write_surface(*surface, flags.output, options));
   } else if (const auto& mesh = std::get<TetMesh>(read.mesh); writes_volume(flags.output)) {
+    if (find_format(flags.output)->volume->element_fields) options.fields = element_fields(mesh);
     tell(write_volume(mesh, flags.output, options));
   } else {
     display.line("the boundary was written; " + flags.output.string() + " holds no tetrahedra");
@@ -87,6 +89,7 @@ SubCommand add_convert(CLI::App& root) {
   const auto flags = std::make_shared<ConvertFlags>();
   CLI::App* app =
       root.add_subcommand("convert", "Between all formats; a volume mesh into a surface gives its boundary");
+  app->footer("Volume meshes: " + known_volume_formats() + "\nSurfaces: " + known_surface_formats_to_write());
   app->add_option("input", flags->input, "What to read")->required()->type_name("FILE");
   add_output_flag(*app, flags->output);
   add_force_flag(*app, flags->force);

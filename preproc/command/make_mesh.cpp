@@ -4,6 +4,7 @@
 #include "export/surface_files.hpp"
 #include "export/units.hpp"
 #include "preproc/command/early_end.hpp"
+#include "preproc/command/element_fields.hpp"
 #include "preproc/command/figures.hpp"
 #include "preproc/command/input_warnings.hpp"
 #include "preproc/command/output_files.hpp"
@@ -132,6 +133,25 @@ void require_writable_outputs(const MakeMeshJob& job) {
   require_writable(outputs, inputs, job.common.force);
 }
 
+Notes write_result(PipelineResult& result, const MakeMeshJob& job) {
+  const std::string unit = job.common.unit.value_or("");
+  FileOptions options;
+  options.provenance = job.common.input.filename().string();
+  options.msh_version = job.msh_version;
+  if (result.volume_mesh) {
+    result.volume_mesh->unit = unit;
+    if (find_format(job.output)->volume->element_fields) options.fields = element_fields(*result.volume_mesh);
+    return write_volume(*result.volume_mesh, job.output, options);
+  }
+  if (result.measured_vertices && is_surface_file(job.output)) {
+    write_surface(result.surface, job.output, {.measured = result.measured_vertices, .unit = unit, .ascii = false});
+    return {};
+  }
+  return write_surface(
+      NamedSurface{.mesh = result.surface, .node_sets = {}, .face_sets = result.face_sets, .unit = unit}, job.output,
+      options);
+}
+
 }  // namespace
 
 void add_surface_flags(CLI::App& command, MakeMeshJob& job) {
@@ -168,7 +188,7 @@ int make_mesh(MakeMeshJob job) {
   if (job.pipeline.simplify) job.pipeline.simplify->size = job.size.target();
   adapt_reconstruction(job);
   if (job.enrich) job.pipeline.enrich = job.enrich_options;
-  const PipelineResult result = run_naming_input(scan, job, progress, display);
+  PipelineResult result = run_naming_input(scan, job, progress, display);
 
   tell_what_was_left_out(result, job);
   for (const WeakPlace& place : result.weak_places)
@@ -197,20 +217,7 @@ int make_mesh(MakeMeshJob job) {
     }
   }
   if (job.features.write) outputs.add(*job.features.write, text_of(result.features));
-  const FileOptions options{
-      .provenance = job.common.input.filename().string(), .msh_version = job.msh_version, .fields = {}, .ascii = false};
-  if (result.volume_mesh) {
-    TetMesh mesh = *result.volume_mesh;
-    mesh.unit = job.common.unit.value_or("");
-    for (const std::string& note : write_volume(mesh, job.output, options)) display.line("warning: " + note);
-  } else if (result.measured_vertices && is_surface_file(job.output)) {
-    write_surface(result.surface, job.output,
-                  {.measured = result.measured_vertices, .unit = job.common.unit.value_or(""), .ascii = false});
-  } else {
-    const NamedSurface surface{
-        .mesh = result.surface, .node_sets = {}, .face_sets = result.face_sets, .unit = job.common.unit.value_or("")};
-    for (const std::string& note : write_surface(surface, job.output, options)) display.line("warning: " + note);
-  }
+  for (const std::string& note : write_result(result, job)) display.line("warning: " + note);
   outputs.commit();
   ends_by_itself_now();
   return 0;
