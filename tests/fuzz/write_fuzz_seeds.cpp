@@ -8,6 +8,7 @@
 #include "tests/binary_msh.hpp"
 #include "tests/cloud_files.hpp"
 #include "tests/structured_tets.hpp"
+#include "tests/temporary_folder.hpp"
 
 #include <filesystem>
 #include <fstream>
