@@ -19,9 +19,9 @@ inline std::vector<std::uint32_t> boundary_faces_at(const TetMesh& mesh, double 
 }
 
 // A box of 4 x 2 x 1, from the origin, in millimetres: faces FIXED at x = 0 and LOADED at x = 4, nodes PINS, bodies
-// BRACKET (x < 2) and PIN.
-inline TetMesh part_with_sets(int order) {
-  TetMesh mesh = tetrahedra_of_box({4, 2, 1}, {4, 2, 1}, order);
+// BRACKET (x < 2) and PIN. `cells`: cubes along each edge, of an even number in x.
+inline TetMesh part_with_sets(int order, const std::array<int, 3>& cells = {4, 2, 1}) {
+  TetMesh mesh = tetrahedra_of_box({4, 2, 1}, cells, order);
   mesh.boundary = find_boundary(mesh.tetrahedra);
   mesh.face_sets = {named_set("FIXED", boundary_faces_at(mesh, 0)), named_set("LOADED", boundary_faces_at(mesh, 4))};
   mesh.node_sets = {named_set("PINS", {0, 3, 7})};
