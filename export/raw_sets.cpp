@@ -65,8 +65,17 @@ class BoundaryIndex {
   std::vector<std::pair<Triangle, std::uint32_t>> by_corners_;
 };
 
-void add(std::vector<NamedSet>& sets, const std::string& name, std::vector<std::uint32_t> members) {
-  if (is_reserved_set(name)) return;
+// A name is a line of text.
+std::string name_of(const std::string& given) {
+  std::string name = given.empty() ? "UNNAMED" : given;
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '_');
+  return name;
+}
+
+void add(std::vector<NamedSet>& sets, const std::string& given, std::vector<std::uint32_t> members) {
+  if (is_reserved_set(given)) return;
+  const std::string name = name_of(given);
   const std::size_t i = find_set(sets, name);
   if (i == sets.size()) {
     sets.push_back(named_set(name, std::move(members)));
@@ -78,7 +87,7 @@ void add(std::vector<NamedSet>& sets, const std::string& name, std::vector<std::
 
 void tell(std::size_t count, const char* what, const std::string& name, std::vector<std::string>& warnings) {
   if (count > 0 && !is_reserved_set(name))
-    warnings.push_back("set " + name + ": " + std::to_string(count) + " " + what + " left out");
+    warnings.push_back("set " + name_of(name) + ": " + std::to_string(count) + " " + what + " left out");
 }
 
 std::vector<NamedSet> node_sets(const RawMesh& raw, const FindNode& find_node, std::vector<std::string>& warnings) {
