@@ -53,7 +53,7 @@ constexpr auto formats = std::to_array<FileFormat>({
     {".vtk", "VTK, legacy", Holdings{.second_order = true}, Holdings{}, nullptr, nullptr, read_vtk_legacy},
     {".3mf", "3MF", {}, Holdings{.face_sets = true, .unit = true}, nullptr, nullptr, read_3mf},
     {".stl", "STL", {}, only_unit, nullptr, write_plain_surface, read_plain_surface},
-    {".obj", "Wavefront", {}, only_unit, nullptr, write_plain_surface, read_plain_surface},
+    {".obj", "Wavefront", {}, Holdings{.face_sets = true, .unit = true}, nullptr, write_obj_groups, read_plain_surface},
     {".ply", "Stanford", {}, only_unit, nullptr, write_plain_surface, read_plain_surface},
     {".off", "Geomview", {}, only_unit, nullptr, write_plain_surface, read_plain_surface},
 });

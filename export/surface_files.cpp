@@ -1,30 +1,29 @@
 #include "export/surface_files.hpp"
 
+#include "export/set_names.hpp"
 #include "preproc/mesh/read_surface.hpp"
-#include "preproc/mesh/unit_comment.hpp"
 #include "preproc/mesh/write_surface.hpp"
-
-#include <fstream>
 
 namespace scan2fea {
 
 Notes write_plain_surface(const NamedSurface& surface, const std::filesystem::path& file, const FileOptions& options) {
-  write_surface(surface.mesh, file, {.measured = {}, .unit = surface.unit, .ascii = options.ascii});
+  write_surface(surface.mesh, file, {.measured = {}, .unit = surface.unit, .face_sets = {}, .ascii = options.ascii});
   return {};
 }
 
-std::string unit_in_head(const std::filesystem::path& file) {
-  std::string head(1024, ' ');
-  std::ifstream stream(file, std::ios::binary);
-  if (!std::filesystem::is_regular_file(file)) return {};  // what is read of a pipe is gone
-  stream.read(head.data(), static_cast<std::streamsize>(head.size()));
-  return unit_in_comment(head).value_or("");
+Notes write_obj_groups(const NamedSurface& surface, const std::filesystem::path& file, const FileOptions&) {
+  Notes notes;
+  const NameRules rules{.longest = 200, .upper_case = false, .allowed = "_-.+:/()", .starts_with_letter = false};
+  const std::vector<std::string> names = names_for(surface.face_sets, rules, {}, notes);
+  std::vector<NamedSet> sets = surface.face_sets;
+  for (std::size_t s = 0; s < sets.size(); ++s) sets[s].name = names[s];
+  write_surface(surface.mesh, file,
+                {.measured = {}, .unit = surface.unit, .face_sets = std::move(sets), .ascii = false});
+  return notes;
 }
 
 MeshFile read_plain_surface(const std::filesystem::path& file) {
-  return {
-      .mesh = NamedSurface{.mesh = read_surface(file), .node_sets = {}, .face_sets = {}, .unit = unit_in_head(file)},
-      .warnings = {}};
+  return {.mesh = read_named_surface(file), .warnings = {}};
 }
 
 }  // namespace scan2fea

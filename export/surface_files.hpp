@@ -9,8 +9,8 @@
 namespace scan2fea {
 
 Notes write_plain_surface(const NamedSurface& surface, const std::filesystem::path& file, const FileOptions& options);
-// The unit of a comment that `write_surface` wrote; empty where there is none.
-std::string unit_in_head(const std::filesystem::path& file);
+// OBJ, sets of faces as groups.
+Notes write_obj_groups(const NamedSurface& surface, const std::filesystem::path& file, const FileOptions& options);
 
 MeshFile read_plain_surface(const std::filesystem::path& file);
 

@@ -80,6 +80,32 @@ TEST_F(UnitsOfFiles, GoThroughAllSurfaces) {
   }
 }
 
+TEST_F(UnitsOfFiles, StandBesideTheNamesOfSurfaces) {
+  write_text(
+      folder_ / "two.stl",
+      "solid BRACKET unit of length: mm\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
+      "endloop\nendfacet\nendsolid\nsolid PIN\nfacet normal 0 0 1\nouter loop\nvertex 0 0 1\nvertex 1 0 1\n"
+      "vertex 0 1 1\nendloop\nendfacet\nendsolid\n");
+  write_text(folder_ / "two.obj",
+             "# unit of length: mm\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\ng BRACKET\nusemtl steel\nf 1 2 3\ng PIN\n"
+             "f 2 4 3\ng empty\n");
+  for (const char* name : {"two.stl", "two.obj"}) {
+    const MeshFile read = read_mesh(folder_ / name);
+    const auto& surface = std::get<NamedSurface>(read.mesh);
+    EXPECT_EQ(surface.unit, "mm") << name;
+    ASSERT_EQ(surface.face_sets.size(), std::string(name) == "two.stl" ? 2U : 3U) << name;
+    EXPECT_EQ(surface.face_sets[0], (NamedSet{"BRACKET", {0}})) << name;
+    EXPECT_EQ(surface.face_sets.back(), (NamedSet{"PIN", {1}})) << name;
+    write_surface(surface, folder_ / "again.obj");
+    const MeshFile again = read_mesh(folder_ / "again.obj");
+    for (const NamedSet& set : surface.face_sets) {
+      const auto& sets = std::get<NamedSurface>(again.mesh).face_sets;
+      ASSERT_LT(find_set(sets, set.name), sets.size()) << set.name;
+      EXPECT_EQ(sets[find_set(sets, set.name)].members, set.members);
+    }
+  }
+}
+
 TEST_F(UnitsOfFiles, OfCompressedScansAreOfNoMatter) {
   NamedSurface ball;
   ball.mesh = analytic::sphere(10, 2);

@@ -76,22 +76,30 @@ void tell_what_was_left_out(const PipelineResult& result, const MakeMeshJob& job
   std::fprintf(stderr, "scan2fea: warning: %s: the time limit left out %s\n", job.common.input.c_str(), list.c_str());
 }
 
-// In the formats of meshes, too. The unit is what the file says or the user, who must not contradict one another.
+// In the formats of meshes, too, with the names that come with a surface. The unit is what the file says or the user,
+// who must not contradict one another.
 Scan read_input(MakeMeshJob& job) {
   const std::filesystem::path& input = job.common.input;
+  if (job.takes_clouds == TakesClouds::only) return read_cloud(input);
   const FileFormat* format = find_format(input);
-  const bool is_plain = format == nullptr || format->read == read_plain_surface;
-  MeshFile read = is_plain ? MeshFile{} : read_mesh(input);
+  MeshFile read;
+  if (format != nullptr && format->read != read_plain_surface) {
+    read = read_mesh(input);
+    if (const auto* volume = std::get_if<TetMesh>(&read.mesh)) read.mesh = named_boundary(*volume, read.warnings);
+  } else if (job.takes_clouds == TakesClouds::no) {
+    read.mesh = read_named_surface(input);
+  } else {
+    NamedScan scan = read_named_scan(input);
+    if (auto* cloud = std::get_if<PointCloud>(&scan)) return std::move(*cloud);
+    read.mesh = std::get<NamedSurface>(std::move(scan));
+  }
   for (const std::string& warning : read.warnings)
     std::fprintf(stderr, "scan2fea: warning: %s: %s\n", input.c_str(), warning.c_str());
-  if (auto* volume = std::get_if<TetMesh>(&read.mesh)) read.mesh = named_boundary(*volume, read.warnings);
   auto& surface = std::get<NamedSurface>(read.mesh);
-  const std::string unit = settled_unit(is_plain ? unit_in_head(input) : surface.unit, job.common.unit, input.string());
+  const std::string unit = settled_unit(surface.unit, job.common.unit, input.string());
   if (!unit.empty()) job.common.unit = unit;
-  if (!is_plain) return std::move(surface.mesh);
-  if (job.takes_clouds == TakesClouds::no) return read_surface(job.common.input);
-  if (job.takes_clouds == TakesClouds::only) return read_cloud(job.common.input);
-  return read_scan(job.common.input);
+  job.pipeline.given_sets = std::move(surface.face_sets);
+  return std::move(surface.mesh);
 }
 
 // A cloud is thinned to what the triangles need that are asked for: two points a triangle.
@@ -144,7 +152,8 @@ Notes write_result(PipelineResult& result, const MakeMeshJob& job) {
     return write_volume(*result.volume_mesh, job.output, options);
   }
   if (result.measured_vertices && is_surface_file(job.output)) {
-    write_surface(result.surface, job.output, {.measured = result.measured_vertices, .unit = unit, .ascii = false});
+    write_surface(result.surface, job.output,
+                  {.measured = result.measured_vertices, .unit = unit, .face_sets = {}, .ascii = false});
     return {};
   }
   return write_surface(

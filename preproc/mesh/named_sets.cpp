@@ -31,6 +31,12 @@ std::size_t find_set(std::span<const NamedSet> sets, std::string_view name) {
   return static_cast<std::size_t>(found - sets.begin());
 }
 
+std::size_t find_or_add_set(std::vector<NamedSet>& sets, std::string_view name) {
+  const std::size_t i = find_set(sets, name);
+  if (i == sets.size()) sets.push_back({std::string(name), {}});
+  return i;
+}
+
 std::vector<NamedSet> carried_sets(std::span<const NamedSet> sets, std::span<const std::uint32_t> origin) {
   std::uint32_t most = 0;
   for (const std::uint32_t o : origin)

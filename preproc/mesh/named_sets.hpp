@@ -35,6 +35,9 @@ NamedSet named_set(std::string name, std::vector<std::uint32_t> members);
 // kind never differ by case alone, since solvers do not tell them apart.
 std::size_t find_set(std::span<const NamedSet> sets, std::string_view name);
 
+// The same; where there is none, it is made.
+std::size_t find_or_add_set(std::vector<NamedSet>& sets, std::string_view name);
+
 // The sets of a mesh that was made of another one. `origin`: per member of the new mesh what it was in the old one; of
 // what is new, any number that is no member. A set that nothing is left of stays, empty.
 std::vector<NamedSet> carried_sets(std::span<const NamedSet> sets, std::span<const std::uint32_t> origin);

@@ -60,13 +60,23 @@ PointCloud read_cloud(const std::filesystem::path& path) {
                  is_cloud_format(file) ? read_cloud_format(file) : points_of(file, read_faces_and_vertices(file)));
 }
 
-Scan read_scan(const std::filesystem::path& path) {
+NamedScan read_named_scan(const std::filesystem::path& path) {
   const InputFile file(path);
   if (is_cloud_format(file)) return checked(file, read_cloud_format(file));
-  SurfaceMesh mesh = read_faces_and_vertices(file);
-  if (!mesh.triangles.empty()) return mesh;
-  if (mesh.vertices.empty()) file.fail("the file holds no faces and no points");
-  return checked(file, points_of(file, std::move(mesh)));
+  NamedSurface surface;
+  surface.mesh = read_faces_and_vertices(file, &surface.face_sets);
+  if (!surface.mesh.triangles.empty()) {
+    surface.unit = unit_in_head(file);
+    return surface;
+  }
+  if (surface.mesh.vertices.empty()) file.fail("the file holds no faces and no points");
+  return checked(file, points_of(file, std::move(surface.mesh)));
+}
+
+Scan read_scan(const std::filesystem::path& path) {
+  NamedScan scan = read_named_scan(path);
+  if (auto* cloud = std::get_if<PointCloud>(&scan)) return std::move(*cloud);
+  return std::get<NamedSurface>(std::move(scan)).mesh;
 }
 
 }  // namespace scan2fea

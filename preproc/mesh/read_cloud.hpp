@@ -1,6 +1,7 @@
 // Reads point clouds: text (XYZ, TXT, ASC, CSV, PTS, PWN), PTX, PCD, LAS, and the points of PLY, OBJ and OFF.
 #pragma once
 
+#include "preproc/mesh/named_sets.hpp"
 #include "preproc/mesh/point_cloud.hpp"
 #include "preproc/mesh/surface_mesh.hpp"
 
@@ -18,5 +19,9 @@ PointCloud read_cloud(const std::filesystem::path& file);
 // A surface where the file has faces, else the cloud of its points.
 using Scan = std::variant<SurfaceMesh, PointCloud>;
 Scan read_scan(const std::filesystem::path& file);
+
+// The same, with what read_named_surface tells of a surface.
+using NamedScan = std::variant<NamedSurface, PointCloud>;
+NamedScan read_named_scan(const std::filesystem::path& file);
 
 }  // namespace scan2fea

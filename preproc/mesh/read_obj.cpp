@@ -33,28 +33,69 @@ std::uint32_t read_corner(TextScanner& line, std::size_t vertices_so_far, std::s
   return static_cast<std::uint32_t>(index > 0 ? index - 1 : so_far + index);
 }
 
-void read_faces(TextScanner line, SurfaceMesh& mesh) {
+// What the faces from here on are in: groups, the object, the material.
+class Names {
+ public:
+  explicit Names(std::vector<NamedSet>& sets) : sets_(sets) {}
+
+  // Of a line that may name one of them.
+  void take(std::string_view keyword, TextScanner& line) {
+    if (keyword == "g") take_all(line, groups_);
+    if (keyword == "o") take_all(line, object_);
+    if (keyword == "usemtl") take_all(line, material_);
+  }
+
+  void add(std::size_t first_triangle, std::size_t end) {
+    for (const auto* indices : {&groups_, &object_, &material_})
+      for (const std::size_t i : *indices)
+        for (std::size_t t = first_triangle; t < end; ++t) {
+          std::vector<std::uint32_t>& members = sets_[i].members;
+          if (members.empty() || members.back() != t) members.push_back(static_cast<std::uint32_t>(t));
+        }
+  }
+
+ private:
+  // "default" is what the format calls no group.
+  void take_all(TextScanner& line, std::vector<std::size_t>& indices) {
+    indices.clear();
+    while (line.skip_blanks())
+      if (const std::string_view word = line.word(); word != "default" && word != "off")
+        indices.push_back(find_or_add_set(sets_, word));
+  }
+
+  std::vector<NamedSet>& sets_;
+  std::vector<std::size_t> groups_, object_, material_;
+};
+
+void read_faces(TextScanner line, SurfaceMesh& mesh, std::vector<NamedSet>& sets) {
   std::size_t vertices_so_far = 0;
+  Names names(sets);
   std::vector<std::uint32_t> corners;
   for (; line.skip_space(); line.skip_line()) {
     const char* start = line.position();
     const std::string_view keyword = line.word();
     if (keyword == "v") ++vertices_so_far;
+    names.take(keyword, line);
     if (keyword != "f") continue;
     corners.clear();
     while (line.skip_blanks()) corners.push_back(read_corner(line, vertices_so_far, mesh.vertices.size()));
     if (corners.size() < 3) line.fail(start, "a face has too few corners", std::to_string(corners.size()), "3");
+    const std::size_t before = mesh.triangles.size();
     append_polygon(mesh, corners);
+    names.add(before, mesh.triangles.size());
   }
 }
 
 }  // namespace
 
 // Vertices first, then faces: a face may name vertices that stand behind it, and cutting a polygon needs their places.
-SurfaceMesh read_obj(const InputFile& file) {
+SurfaceMesh read_obj(const InputFile& file, std::vector<NamedSet>* sets) {
   SurfaceMesh mesh;
   read_vectors(TextScanner(file), "v", mesh.vertices);
-  read_faces(TextScanner(file), mesh);
+  std::vector<NamedSet> named;
+  read_faces(TextScanner(file), mesh, named);
+  std::erase_if(named, [](const NamedSet& set) { return set.members.empty(); });
+  if (sets != nullptr) *sets = std::move(named);
   return mesh;
 }
 

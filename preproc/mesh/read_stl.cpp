@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace scan2fea {
 namespace {
@@ -70,12 +71,13 @@ SurfaceMesh read_binary(const InputFile& file) {
 }
 
 // Line by line: the keywords that hold nothing (`outer loop`, normals, names) are passed over.
-SurfaceMesh read_ascii(const InputFile& file) {
+SurfaceMesh read_ascii(const InputFile& file, std::vector<NamedSet>* sets) {
   SurfaceMesh mesh;
   VertexWelder welder(0);
   Triangle corners{};
   std::size_t count = 0;
   bool inside_solid = false;
+  std::optional<std::size_t> solid;  // of `sets`
   TextScanner line(file);
   for (; line.skip_space(); line.skip_line()) {
     const char* start = line.position();
@@ -85,10 +87,13 @@ SurfaceMesh read_ascii(const InputFile& file) {
       corners[count++] = welder.add(line.point());
     } else if (is_keyword(keyword, "endfacet")) {
       if (count != 3) line.fail(start, "a facet ends before its third vertex", std::to_string(count), "3");
+      if (solid) (*sets)[*solid].members.push_back(static_cast<std::uint32_t>(mesh.triangles.size()));
       mesh.triangles.push_back(corners);
       count = 0;
     } else if (is_keyword(keyword, "solid") || is_keyword(keyword, "endsolid")) {
       inside_solid = is_keyword(keyword, "solid");
+      solid.reset();
+      if (sets != nullptr && inside_solid && line.skip_blanks()) solid = find_or_add_set(*sets, line.word());
       if (count != 0) line.fail(start, "a solid begins or ends inside a facet");
     } else if (!is_keyword(keyword, "facet") && !is_keyword(keyword, "outer") && !is_keyword(keyword, "endloop")) {
       line.fail(start, "not a keyword of STL", std::string(keyword.substr(0, 40)), {},
@@ -97,6 +102,8 @@ SurfaceMesh read_ascii(const InputFile& file) {
   }
   if (inside_solid)
     line.fail(line.position(), "the file ends before endsolid", {}, {}, "exporting or copying the scan again");
+  // One solid is the whole, whatever it is called: programs write their own name there.
+  if (sets != nullptr && sets->size() == 1 && sets->front().members.size() == mesh.triangles.size()) sets->clear();
   mesh.vertices = welder.take_vertices();
   return mesh;
 }
@@ -108,8 +115,8 @@ bool is_binary_stl(const InputFile& file) {
   return bytes.size() > header_size && bytes.size() == header_size + triangle_size * promised_triangles(bytes);
 }
 
-SurfaceMesh read_stl(const InputFile& file) {
-  return is_binary_stl(file) || !looks_like_text(file.bytes()) ? read_binary(file) : read_ascii(file);
+SurfaceMesh read_stl(const InputFile& file, std::vector<NamedSet>* sets) {
+  return is_binary_stl(file) || !looks_like_text(file.bytes()) ? read_binary(file) : read_ascii(file, sets);
 }
 
 }  // namespace scan2fea

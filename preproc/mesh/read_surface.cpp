@@ -3,18 +3,19 @@
 #include "preproc/mesh/cloud_formats.hpp"
 #include "preproc/mesh/file_extension.hpp"
 #include "preproc/mesh/surface_formats.hpp"
+#include "preproc/mesh/unit_comment.hpp"
 
 #include <string>
 
 namespace scan2fea {
 
-SurfaceMesh read_faces_and_vertices(const InputFile& file) {
+SurfaceMesh read_faces_and_vertices(const InputFile& file, std::vector<NamedSet>* sets) {
   if (is_ply(file)) return read_ply(file);
   if (is_off(file)) return read_off(file);
-  if (is_binary_stl(file)) return read_stl(file);
+  if (is_binary_stl(file)) return read_stl(file, sets);
   const std::string extension = extension_of_content(file.path());
-  if (extension == ".stl") return read_stl(file);
-  if (extension == ".obj") return read_obj(file);
+  if (extension == ".stl") return read_stl(file, sets);
+  if (extension == ".obj") return read_obj(file, sets);
   if (extension == ".ply") return read_ply(file);
   if (extension == ".off") return read_off(file);
   file.fail(
@@ -22,13 +23,24 @@ SurfaceMesh read_faces_and_vertices(const InputFile& file) {
       is_cloud_format(file) ? "scan2fea reconstruct, since this is a point cloud" : "converting it to one of these");
 }
 
-SurfaceMesh read_surface(const std::filesystem::path& path) {
+std::string unit_in_head(const InputFile& file) {
+  constexpr std::size_t head = 1024;  // bytes
+  return unit_in_comment(file.bytes().substr(0, head)).value_or("");
+}
+
+NamedSurface read_named_surface(const std::filesystem::path& path) {
   const InputFile file(path);
-  SurfaceMesh mesh = read_faces_and_vertices(file);
-  if (mesh.triangles.empty())
-    file.fail("the file holds no faces", std::to_string(mesh.vertices.size()) + " vertices", {},
+  NamedSurface surface;
+  surface.mesh = read_faces_and_vertices(file, &surface.face_sets);
+  if (surface.mesh.triangles.empty())
+    file.fail("the file holds no faces", std::to_string(surface.mesh.vertices.size()) + " vertices", {},
               "scan2fea reconstruct, if this is a point cloud");
-  return mesh;
+  surface.unit = unit_in_head(file);
+  return surface;
+}
+
+SurfaceMesh read_surface(const std::filesystem::path& path) {
+  return read_named_surface(path).mesh;
 }
 
 }  // namespace scan2fea

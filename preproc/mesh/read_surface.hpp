@@ -1,6 +1,7 @@
 // Reads STL (ASCII, binary, several solids), OBJ, PLY (ASCII, both byte orders, polygons, triangle strips) and OFF.
 #pragma once
 
+#include "preproc/mesh/named_sets.hpp"
 #include "preproc/mesh/surface_mesh.hpp"
 
 #include <filesystem>
@@ -14,5 +15,9 @@ namespace scan2fea {
 // a header that promises more than the file holds, an index out of range, coordinates that are not finite, no faces.
 // O(n) for n bytes; memory is bounded by a small multiple of the file's size, whatever its header says.
 SurfaceMesh read_surface(const std::filesystem::path& file);
+
+// With the names in it, of faces (ASCII STL: solids; OBJ: groups, objects and materials), and the unit of a comment
+// that `write_surface` wrote.
+NamedSurface read_named_surface(const std::filesystem::path& file);
 
 }  // namespace scan2fea

@@ -4,15 +4,18 @@
 #pragma once
 
 #include "preproc/mesh/input_file.hpp"
+#include "preproc/mesh/named_sets.hpp"
 #include "preproc/mesh/surface_mesh.hpp"
 
 namespace scan2fea {
 
-// STL, ASCII or binary, of any number of solids; bit-identical corners become one vertex, -0 being 0.
-SurfaceMesh read_stl(const InputFile& file);
+// STL, ASCII or binary, of any number of solids; bit-identical corners become one vertex, -0 being 0. `sets`, where
+// given: the triangles of each solid that has a name, where there are several.
+SurfaceMesh read_stl(const InputFile& file, std::vector<NamedSet>* sets = nullptr);
 
-// Wavefront OBJ: the positions and faces of all groups together; texture, normals and colours are passed over.
-SurfaceMesh read_obj(const InputFile& file);
+// Wavefront OBJ: the positions and faces of all groups together; texture, normals and colours are passed over. `sets`,
+// where given: the triangles of each group, object and material.
+SurfaceMesh read_obj(const InputFile& file, std::vector<NamedSet>* sets = nullptr);
 
 // Stanford PLY 1.0: x, y, z of `vertex`, the list of `face` and of `tristrips`, among any other properties and
 // elements.
@@ -22,7 +25,10 @@ SurfaceMesh read_ply(const InputFile& file);
 SurfaceMesh read_off(const InputFile& file);
 
 // Any of them, without faces too.
-SurfaceMesh read_faces_and_vertices(const InputFile& file);
+SurfaceMesh read_faces_and_vertices(const InputFile& file, std::vector<NamedSet>* sets = nullptr);
+
+// The unit of a comment that `write_surface` wrote; empty where there is none.
+std::string unit_in_head(const InputFile& file);
 
 // What the content alone tells.
 bool is_binary_stl(const InputFile& file);  // its triangle count and its size agree

@@ -106,6 +106,14 @@ void write_stl(const SurfaceMesh& mesh, const SurfaceFileOptions& options, Buffe
   }
 }
 
+// The names of the sets that each triangle is in, " A B"; none at all where there are no sets.
+std::vector<std::string> groups_of_triangles(const std::vector<NamedSet>& sets, std::size_t triangles) {
+  std::vector<std::string> groups(sets.empty() ? 0 : triangles);
+  for (const NamedSet& set : sets)
+    for (const std::uint32_t t : set.members) groups[t] += " " + set.name;
+  return groups;
+}
+
 void write_obj(const SurfaceMesh& mesh, const SurfaceFileOptions& options, Buffer& out) {
   if (!options.unit.empty()) out.text("# ").text(unit_comment(options.unit)).text("\n");
   for (const Vec3& p : mesh.vertices) {
@@ -113,9 +121,12 @@ void write_obj(const SurfaceMesh& mesh, const SurfaceFileOptions& options, Buffe
     for (const double coordinate : p) out.text(" ").number(coordinate);
     out.text("\n");
   }
-  for (const Triangle& t : mesh.triangles) {
+  const std::vector<std::string> groups = groups_of_triangles(options.face_sets, mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (!groups.empty() && (t == 0 || groups[t] != groups[t - 1]))
+      out.text("g").text(groups[t].empty() ? " default" : groups[t]).text("\n");
     out.text("f");
-    for (const std::uint32_t v : t) out.text(" ").number(std::uint64_t{v} + 1);
+    for (const std::uint32_t v : mesh.triangles[t]) out.text(" ").number(std::uint64_t{v} + 1);
     out.text("\n");
   }
 }

@@ -1,6 +1,7 @@
 // Writes STL and PLY, both binary or text, OBJ and OFF.
 #pragma once
 
+#include "preproc/mesh/named_sets.hpp"
 #include "preproc/mesh/surface_mesh.hpp"
 
 #include <cstddef>
@@ -20,8 +21,9 @@ std::string_view known_surface_formats();
 struct SurfaceFileOptions {
   std::optional<std::size_t> measured;  // so many vertices, the first, were measured and the others made up: PLY says
                                         // so of each by a property `measured`, 1 or 0
-  std::string unit;    // of length, for a comment; empty: none
-  bool ascii = false;  // STL and PLY as text; Gmsh 4.8 does not read doubles of a binary PLY
+  std::string unit;                     // of length, for a comment; empty: none
+  std::vector<NamedSet> face_sets;      // groups of OBJ; names without blanks
+  bool ascii = false;                   // STL and PLY as text; Gmsh 4.8 does not read doubles of a binary PLY
 };
 
 // The format is told by the extension (WrongUsage where it is unknown). Numbers round-trip, but for STL, whose format
