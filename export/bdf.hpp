@@ -4,7 +4,8 @@
 //   GRID*          in large fields: sixteen characters hold twelve digits or more
 //   CTETRA         of four or ten nodes; CTRIA3 of a surface
 //   PSOLID, PSHELL 1 for elements in no set, then one for each combination of sets of elements, all of material 1
-//   SET1, SPC1     the same number: the nodes of a set, and these clamped (123), inert unless case control names it
+//   SET1, SPC1     the same number: the nodes of a set, and these clamped (123), inert unless case control names it;
+//                  of NALL and SALL SET1 alone
 //   PLOAD4         a pressure of 1 on each face of a set of faces, likewise; its nodes are SET1 and SPC1 of the same
 //   number
 // Names of sets, and the unit, are comments: "$ SET1 11 is FIXED".

@@ -2,8 +2,8 @@
 #include "export/number_text.hpp"
 #include "export/set_names.hpp"
 #include "export/text_output.hpp"
-#include "preproc/mesh/unit_comment.hpp"
 #include "preproc/mesh/output_file.hpp"
+#include "preproc/mesh/unit_comment.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -119,7 +119,7 @@ void write_node_sets(TextOutput& out, std::span<const NamedSet> sets, std::span<
   for (std::size_t s = 0; s < sets.size(); ++s) {
     write_comment(out, "SET1 " + std::to_string(first + s) + " is " + names[s]);
     write_nodes_of_set(out, first + s, sets[s].members);
-    write_clamp(out, first + s, sets[s].members);
+    if (!is_reserved_set(names[s])) write_clamp(out, first + s, sets[s].members);  // nobody clamps all
   }
 }
 
@@ -141,7 +141,7 @@ void write_face_sets(TextOutput& out, const TetMesh& mesh, std::span<const std::
     }
     const std::vector<std::uint32_t> nodes = nodes_of_faces(mesh, set.members);
     write_nodes_of_set(out, number, nodes);
-    write_clamp(out, number, nodes);
+    if (!is_reserved_set(names[s])) write_clamp(out, number, nodes);
   }
 }
 
