@@ -2,8 +2,8 @@
 
 #include "preproc/made_up.hpp"
 #include "preproc/mesh/error.hpp"
+#include "preproc/named_parts.hpp"
 #include "preproc/stage_descriptions.hpp"
-#include "preproc/surface/faces/carry_sets.hpp"
 #include "preproc/surface/kernel/canonical_frame.hpp"
 #include "preproc/surface/repair/solid_volume.hpp"
 #include "preproc/surface/simplification/voxel_options.hpp"
@@ -239,56 +239,6 @@ void hand_on_creases(const SurfaceMesh& enriched, const std::vector<FeatureEdge>
   simplification->may_drop_given = true;
 }
 
-// The given sets on the surface that is to be simplified: by the nearest triangle where it is another one.
-std::vector<NamedSet> sets_on(const SurfaceMesh& scan, const SurfaceMesh& given, const std::vector<NamedSet>& sets) {
-  if (sets.empty() || scan.triangles == given.triangles) return sets;
-  const TriangleTree tree(given);
-  std::vector<std::uint32_t> origin;
-  for (const auto& [a, b, c] : scan.triangles)
-    origin.push_back(tree.closest((scan.vertices[a] + scan.vertices[b] + scan.vertices[c]) / 3).triangle);
-  return carried_sets(sets, origin);
-}
-
-std::vector<NamedSelection> with_given(std::vector<NamedSelection> selections, const std::vector<NamedSet>& given,
-                                       std::size_t triangles) {
-  std::vector<NamedSet> taken;
-  for (const NamedSelection& s : selections) taken.push_back({s.name, {}});
-  for (const NamedSet& set : given) {
-    if (find_set(taken, set.name) < taken.size() || set.members.empty() || set.members.size() == triangles) continue;
-    NamedSelection& added = selections.emplace_back();
-    added.name = added.selection.text = set.name;
-  }
-  return selections;
-}
-
-// What is selected is selected of the surface that is to be simplified.
-SelectedScan select(SurfaceMesh scan, const std::vector<NamedSet>& given, const PipelineOptions& options,
-                    const Progress& progress, std::optional<SimplifyOptions>& simplification, StageRecord& record) {
-  const FeatureOptions features = options.simplify ? options.simplify->features : FeatureOptions{};
-  std::vector<NamedSelection> selections = with_given(options.sets, given, scan.triangles.size());
-  std::optional<SurfaceFaces> faces;
-  if (options.idealise || options.name_faces) faces = find_faces(scan, features, progress);
-  if (options.name_faces) {
-    std::vector<NamedSet> named;
-    for (const SurfaceFace& face : faces->list) named.push_back({face.name, {0}});
-    selections = with_given(std::move(selections), named, scan.triangles.size());
-  }
-  if (options.idealise) {
-    const IdealiseResult idealised = idealise(scan, *faces, *options.idealise);
-    record.changes = {{"idealised", static_cast<double>(idealised.moved)},
-                      {"not_idealised", static_cast<double>(idealised.left)},
-                      {"largest_move", idealised.largest_move},
-                      {"rms_move", idealised.rms_move}};
-  }
-  SelectedScan selected = select_sets(std::move(scan), selections, given, features, progress, std::move(faces));
-  if (simplification)
-    simplification->kept_lines = lines_of(selected.mesh, borders_between(selected.mesh, selected.of_triangle));
-  record.changes.emplace_back("faces", static_cast<double>(selected.faces.list.size()));
-  record.changes.emplace_back("sets", static_cast<double>(selected.sets.size()));
-  return selected;
-}
-
-// The sets on the surface that was made, whose triangles' order the boundary of the volume keeps.
 // Where corner nodes are not the surface's vertices, there are no edges of lines.
 ScanLines lines_of_scan(const PipelineResult& result, const FilledSurface& made, const PipelineOptions& options) {
   ScanLines lines{
@@ -317,47 +267,6 @@ void curve(const SurfaceMesh& scan, const ScanLines& lines, PipelineResult& resu
     result.sets[s].area = 0;
     for (const std::uint32_t f : mesh.face_sets[s].members) result.sets[s].area += face_area(mesh, mesh.boundary[f]);
   }
-}
-
-// The first `asked` of them must not vanish; of those that came with the scan, what is smaller than triangles may.
-void carry_sets(const SelectedScan& selected, std::size_t asked, const SimplifyResult& simplified,
-                PipelineResult& result) {
-  const SurfaceMesh& surface = result.surface;
-  const std::vector<std::uint32_t> label =
-      carry_labels(selected.mesh, selected.of_triangle, surface, simplified.line_edges);
-  // One triangle of the scan for each label: in the same sets as all others.
-  std::vector<std::uint32_t> example;
-  for (std::uint32_t f = 0; f < selected.of_triangle.size(); ++f)
-    if (selected.of_triangle[f] == example.size()) example.push_back(f);
-  std::vector<std::uint32_t> origin;
-  for (const std::uint32_t l : label) origin.push_back(example[l]);
-  const std::vector<NamedSet> carried = carried_sets(selected.sets, origin);
-  for (std::size_t s = 0; s < carried.size(); ++s) {
-    const NamedSet& set = carried[s];
-    if (set.members.empty() && s >= asked) continue;
-    MadeSet made{.name = set.name, .area_of_scan = selected.areas[s], .triangles = set.members.size()};
-    for (const std::uint32_t f : set.members) made.area += area_vector(surface, surface.triangles[f]).norm() / 2;
-    if (set.members.empty())
-      throw NotMeshable({.what = "nothing is left of the set " + set.name,
-                         .where = {},
-                         .value = "area " + std::to_string(made.area_of_scan),
-                         .limit = {},
-                         .advice = "smaller triangles (--deviation, --faces, --size-ball), --method lattice"});
-    result.sets.push_back(std::move(made));
-    result.face_sets.push_back(set);
-  }
-}
-
-// The vertices of the faces that are selected.
-std::vector<bool> domain_of(const SurfaceMesh& scan, const NamedSelection& selection, const PipelineOptions& options,
-                            const Progress& progress) {
-  const FeatureOptions features = options.simplify ? options.simplify->features : FeatureOptions{};
-  const SelectedScan selected = select_sets(scan, std::span(&selection, 1), {}, features, progress);
-  std::vector<bool> domain(scan.vertices.size(), false);
-  // Vertices that cuts have added come after those of the scan.
-  for (const std::uint32_t v : vertices_of_faces(selected.mesh, selected.sets.front().members))
-    if (v < domain.size()) domain[v] = true;
-  return domain;
 }
 
 // What the scanner has seen of the repaired scan; nothing where it has seen all of it.
@@ -419,9 +328,8 @@ void run_stages(SurfaceMesh scan, const SurfaceMesh* seen, const PipelineOptions
   std::optional<SelectedScan> selected;
   if (!options.sets.empty() || !options.given_sets.empty() || options.name_faces || options.idealise)
     log.run("faces", [&](StageRecord& record) {
-      const SurfaceMesh& whole = options.enrich ? enriched : result.scan;
-      const std::vector<NamedSet> given = sets_on(whole, result.reference(), options.given_sets);
-      selected = select(whole, given, options, progress, chain.simplify, record);
+      selected = select_parts(options.enrich ? enriched : result.scan, result.reference(), options, progress,
+                              chain.simplify, record);
     });
   const SurfaceMesh& start = selected ? selected->mesh : options.enrich ? enriched : result.scan;
   FilledSurface made = MeshMaker(start, stairs, chain, result, log).run(progress);
@@ -430,10 +338,7 @@ void run_stages(SurfaceMesh scan, const SurfaceMesh* seen, const PipelineOptions
                                              result.reference(), options);
   result.surface = std::move(made.surface);
   result.features = std::move(made.simplified.features);
-  if (selected) {
-    carry_sets(*selected, options.sets.size(), made.simplified, result);
-    result.faces = selected->faces;
-  }
+  if (selected) carry_parts(*selected, options.sets.size(), made.simplified, result);
   add_made_up_sets(options.enrich ? enriched : result.scan, origins, result);
   if (options.tetrahedralize) {
     result.volume_mesh = std::move(made.filled.mesh);

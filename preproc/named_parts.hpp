@@ -1,0 +1,27 @@
+// Parts of the surface that get a name: selected on the scan, carried to what is made of it.
+#pragma once
+
+#include "preproc/pipeline.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace scan2fea {
+
+// What the options select of the surface that is to be simplified, or idealise. `given`: the scan before repair. Lines
+// along the borders of sets go into `simplification`.
+SelectedScan select_parts(const SurfaceMesh& whole, const SurfaceMesh& given, const PipelineOptions& options,
+                          const Progress& progress, std::optional<SimplifyOptions>& simplification,
+                          StageRecord& record);
+
+// The sets on `result.surface`, whose triangles' order the boundary of the volume keeps. The first `asked` must not
+// vanish (NotMeshable); of those that came with the scan, what is smaller than triangles may.
+void carry_parts(const SelectedScan& selected, std::size_t asked, const SimplifyResult& simplified,
+                 PipelineResult& result);
+
+// The vertices of the faces that are selected.
+std::vector<bool> domain_of(const SurfaceMesh& scan, const NamedSelection& selection, const PipelineOptions& options,
+                            const Progress& progress);
+
+}  // namespace scan2fea
