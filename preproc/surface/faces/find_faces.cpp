@@ -3,6 +3,7 @@
 #include "preproc/surface/faces/face_figures.hpp"
 #include "preproc/surface/faces/face_regions.hpp"
 #include "preproc/surface/faces/join_faces.hpp"
+#include "preproc/surface/faces/thinned_primitives.hpp"
 #include "preproc/surface/faces/triangle_labels.hpp"
 #include "preproc/surface/kernel/cut_surface.hpp"
 
@@ -30,7 +31,7 @@ class FaceFinder {
       : scan_(scan),
         cut_(std::move(cut)),
         smooth_(face_neighbours(cut_.mesh, VertexStars(cut_.mesh))),
-        known_(find_primitives(cut_.mesh, {}, progress)),
+        known_(find_thinned_primitives(cut_.mesh, progress)),
         is_fitted_(known_.list.size(), false) {}
 
   SurfaceFaces run() {

@@ -59,7 +59,8 @@ struct NamedSelection {
 };
 
 // "fixed=plane(z<0.5mm)". `unit`: of the model, or empty. Throws WrongUsage with what is wrong, and where: a name that
-// solvers do not take or that is taken already (NALL, EALL, SALL, FILLED, ENRICHED), an unknown word, a unit where the model has none.
+// solvers do not take or that is taken already (NALL, EALL, SALL, FILLED, ENRICHED), an unknown word, a unit where the
+// model has none.
 NamedSelection parse_selection(std::string_view text, std::string_view unit);
 
 }  // namespace scan2fea
