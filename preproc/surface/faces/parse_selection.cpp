@@ -94,18 +94,27 @@ class Parser {
   Selection either() { return joined(Selection::Kind::either, "or", &Parser::both); }
   Selection both() { return joined(Selection::Kind::both, "and", &Parser::term); }
 
+  // Each level is one more on the stack, and files of options have no limit of length.
+  Selection nested(Selection (Parser::*next)()) {
+    constexpr int deepest = 100;
+    if (++depth_ > deepest) fail("more than 100 brackets or nots within one another", "fewer of them");
+    Selection result = (this->*next)();
+    --depth_;
+    return result;
+  }
+
   Selection term() {
     skip();
     const std::size_t begin = at_;
     if (take_word("not")) {
       Selection result;
       result.kind = Selection::Kind::inverse;
-      result.operands.push_back(term());
+      result.operands.push_back(nested(&Parser::term));
       result.text = since(begin);
       return result;
     }
     if (take("(")) {
-      Selection result = either();
+      Selection result = nested(&Parser::either);
       need(")");
       return result;
     }
@@ -138,7 +147,7 @@ class Parser {
     if (name == "largest") {
       need("(");
       result.kind = Selection::Kind::largest;
-      result.operands.push_back(either());
+      result.operands.push_back(nested(&Parser::either));
       if (!result.operands[0].is_of_whole_faces())
         fail("largest takes faces, not what lies in a place", "largest(cylinder)");
       need(")");
@@ -293,7 +302,8 @@ class Parser {
     double value = 0;
     const char* begin = text_.data() + at_;
     const char* end = text_.data() + text_.size();
-    const auto [next, error] = std::from_chars(*begin == '+' && begin < end ? begin + 1 : begin, end, value);
+    if (begin < end && *begin == '+') ++begin;
+    const auto [next, error] = std::from_chars(begin, end, value);
     if (error != std::errc{} || !std::isfinite(value)) fail("a number is missing", "0.5");
     at_ = static_cast<std::size_t>(next - text_.data());
     return value;
@@ -316,6 +326,7 @@ class Parser {
 
   std::string_view text_, unit_;
   std::size_t at_ = 0;
+  int depth_ = 0;
 };
 
 void check_name(const std::string& name) {
