@@ -31,7 +31,7 @@ std::string settled_unit(const std::string& of_file, const std::optional<std::st
   const std::string known = length_unit(of_file).value_or(of_file);
   if (of_user && !known.empty() && *of_user != known)
     fail("the file says that its unit is " + known, file, "--unit " + *of_user,
-         "no --unit; to convert, --scale " + known + ":" + *of_user);
+         "no --unit; to convert, scan2fea convert --scale " + known + ":" + *of_user);
   return of_user ? *of_user : known;
 }
 

@@ -47,6 +47,8 @@ TEST_F(UnitsOfFiles, AreNotRelabelled) {
                                         (folder_ / "out.ply").string() + "' --unit inch");
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.standard_error, HasSubstr("its unit is mm"));
+  EXPECT_EQ(run_command("check '" + (folder_ / "part.inp").string() + "' --unit m").exit_code, 2);
+  EXPECT_THAT(run_command("check '" + (folder_ / "part.inp").string() + "'").standard_error, HasSubstr(" mm"));
 }
 
 TEST_F(UnitsOfFiles, AreConvertedByScale) {

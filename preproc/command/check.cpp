@@ -1,4 +1,5 @@
 #include "export/formats.hpp"
+#include "export/units.hpp"
 #include "preproc/command/figures.hpp"
 #include "preproc/command/output_files.hpp"
 #include "preproc/command/sub_commands.hpp"
@@ -23,15 +24,17 @@ struct CheckFlags {
 struct Loaded {
   SurfaceMesh surface;
   std::optional<TetMesh> volume_mesh;
+  std::string unit;  // that the file says; empty where it says none
 };
 
 Loaded load(const std::filesystem::path& file) {
   MeshFile read = read_mesh(file);
   if (auto* surface = std::get_if<NamedSurface>(&read.mesh))
-    return {.surface = std::move(surface->mesh), .volume_mesh = {}};
+    return {.surface = std::move(surface->mesh), .volume_mesh = {}, .unit = std::move(surface->unit)};
   Loaded loaded;
   loaded.volume_mesh = std::get<TetMesh>(std::move(read.mesh));
   loaded.surface = boundary_surface(*loaded.volume_mesh);
+  loaded.unit = loaded.volume_mesh->unit;
   return loaded;
 }
 
@@ -71,7 +74,7 @@ FeatureLines lines_of(const std::vector<Opening>& openings) {
   return lines;
 }
 
-int check(const CheckFlags& flags) {
+int check(CheckFlags flags) {
   const std::vector<Gate> gates = parse_gates(flags.common);
   std::vector<std::filesystem::path> inputs = inputs_of(flags.common);
   if (flags.reference) inputs.push_back(*flags.reference);
@@ -80,6 +83,8 @@ int check(const CheckFlags& flags) {
   require_writable(files, inputs, flags.common.force);
   ProgressDisplay display(flags.common.quiet);
   const Loaded mesh = load(flags.common.input);
+  const std::string unit = settled_unit(mesh.unit, flags.common.unit, flags.common.input.string());
+  if (!unit.empty()) flags.common.unit = unit;
   display.line(describe_input(mesh.surface, flags.common));
   std::optional<SurfaceMesh> reference;
   std::optional<PointCloud> cloud;
