@@ -1,11 +1,11 @@
 #include "export/raw_mesh.hpp"
 #include "export/set_names.hpp"
-#include "preproc/mesh/unit_comment.hpp"
 #include "export/vtk_cells.hpp"
 #include "export/vtk_xml.hpp"
 #include "export/xdmf.hpp"
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/input_file.hpp"
+#include "preproc/mesh/unit_comment.hpp"
 
 #include <charconv>
 #include <map>
@@ -111,7 +111,12 @@ class Reader {
     facets.replace_filename(path_.stem().string() + "_facets" + path_.extension().string());
     if (!raw_.corners.empty() && std::filesystem::exists(facets)) {
       const InputFile facets_file(facets);
-      add_elements(facets_file, read_grid(facets_file));
+      const Grid grid_of_facets = read_grid(facets_file);
+      // Another mesh by this name would come on top of the first.
+      if (!grid_of_facets.topology.starts_with("tri"))
+        facets_file.fail("facets of " + path_.filename().string() + " are not triangles", grid_of_facets.topology, {},
+                         "another name for this file");
+      add_elements(facets_file, grid_of_facets);
     }
     return assemble(raw_, path_);
   }

@@ -40,6 +40,17 @@ TEST(Formats, AnUnknownExtensionIsWrongUsageThatListsTheKnown) {
   EXPECT_THROW(read_volume(folder / "box.xyz"), WrongUsage);
 }
 
+// XDMF has the facets of part.xdmf in part_facets.xdmf, which can be a mesh that has nothing to do with it.
+TEST(Formats, AMeshNamedAsFacetsIsNotPutOnTopOfAnother) {
+  const TemporaryFolder folder;
+  const TetMesh mesh = analytic::tetrahedra_of_box({1, 1, 1}, {1, 1, 1}, 1);
+  write_volume(mesh, folder / "part.xdmf");
+  write_volume(mesh, folder / "part_facets.xdmf");
+  EXPECT_THAT(error_from<InvalidInput>([&] { read_volume(folder / "part.xdmf"); }).what(),
+              ::testing::HasSubstr("are not triangles"));
+  EXPECT_EQ(read_volume(folder / "part_facets.xdmf").tetrahedra, mesh.tetrahedra);
+}
+
 TEST(Formats, AFailureLeavesAnExistingFile) {
   const TemporaryFolder folder;
   const TetMesh mesh = analytic::tetrahedra_of_box({1, 1, 1}, {1, 1, 1}, 1);
