@@ -141,10 +141,11 @@ MachinedPart machined_part(double edge, double noise, std::uint64_t seed) {
   MachinedPart part = meshed();
   gmsh::finalize();
   std::mt19937_64 random(seed);
-  std::normal_distribution<double> normal(0, noise * bounding_box(part.scan.vertices).diagonal());
+  const double sigma = noise * bounding_box(part.scan.vertices).diagonal();
+  std::normal_distribution<double> normal;  // not of `sigma`, which may be zero here and may not there
   if (noise > 0)
     for (Vec3& p : part.scan.vertices)
-      for (double& coordinate : p) coordinate += normal(random);
+      for (double& coordinate : p) coordinate += sigma * normal(random);
   return part;
 }
 
