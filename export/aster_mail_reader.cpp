@@ -113,8 +113,7 @@ class Reader {
 
   void read_elements(std::size_t nodes, bool solid) {
     for (std::string name = next_datum(); name != "FINSF"; name = next_datum()) {
-      if (solid && !raw_.corners.empty() && (nodes == 10) == raw_.mid_edges.empty())
-        lines_.fail("tetrahedra of first and of second order in one mesh");
+      if (solid && raw_.has_other_order(nodes == 10)) lines_.fail(mixed_orders);
       (solid ? raw_.tetrahedron_numbers : raw_.triangle_numbers).push_back(number_of(elements_, name));
       for (std::size_t k = 0; k < nodes; ++k) {
         const std::string node = next_datum();

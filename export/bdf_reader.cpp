@@ -128,11 +128,8 @@ class Reader {
       if (!field(i).empty()) nodes.push_back(lines_.count(field(i)));
     if (nodes.size() != 4 && nodes.size() != 10)
       lines_.fail("a CTETRA of other than four or ten nodes", std::to_string(nodes.size()));
-    if (!raw_.corners.empty() && (nodes.size() == 10) == raw_.mid_edges.empty())
-      lines_.fail("tetrahedra of first and of second order in one mesh");
-    raw_.corners.insert(raw_.corners.end(), nodes.begin(), nodes.begin() + 4);
-    raw_.mid_edges.insert(raw_.mid_edges.end(), nodes.begin() + 4, nodes.end());
-    raw_.tetrahedron_numbers.push_back(lines_.count(field(1)));
+    if (raw_.has_other_order(nodes.size() == 10)) lines_.fail(mixed_orders);
+    raw_.add_tetrahedron(lines_.count(field(1)), nodes);
     by_property_[lines_.count(field(2))].push_back(raw_.tetrahedron_numbers.back());
   }
 

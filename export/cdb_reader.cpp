@@ -120,12 +120,10 @@ class Reader {
     if (triangle || n.size() == 3) {
       raw_.triangles.insert(raw_.triangles.end(), n.begin(), n.begin() + 3);
       raw_.triangle_numbers.push_back(number);
-    } else if (n.size() == 4) {
-      add_tetrahedron(number, n, {});
-    } else if (n.size() == 10) {
-      add_tetrahedron(number, {n[0], n[1], n[2], n[3]}, {n[4], n[5], n[6], n[7], n[8], n[9]});
+    } else if (n.size() == 4 || n.size() == 10) {
+      add_tetrahedron(number, n);
     } else if (n.size() == 8 && n[2] == n[3] && n[4] == n[5] && n[5] == n[6] && n[6] == n[7]) {
-      add_tetrahedron(number, {n[0], n[1], n[2], n[4]}, {});
+      add_tetrahedron(number, {n[0], n[1], n[2], n[4]});
     } else if (n.size() < 3) {
       ++raw_.passed_over;
     } else {
@@ -133,13 +131,9 @@ class Reader {
     }
   }
 
-  void add_tetrahedron(std::uint64_t number, const std::vector<std::uint64_t>& corners,
-                       const std::vector<std::uint64_t>& mid_edges) {
-    if (!raw_.corners.empty() && mid_edges.empty() != raw_.mid_edges.empty())
-      lines_.fail("tetrahedra of first and of second order in one mesh");
-    raw_.corners.insert(raw_.corners.end(), corners.begin(), corners.end());
-    raw_.mid_edges.insert(raw_.mid_edges.end(), mid_edges.begin(), mid_edges.end());
-    raw_.tetrahedron_numbers.push_back(number);
+  void add_tetrahedron(std::uint64_t number, const std::vector<std::uint64_t>& nodes) {
+    if (raw_.has_other_order(nodes.size() == 10)) lines_.fail(mixed_orders);
+    raw_.add_tetrahedron(number, nodes);
   }
 
   // CMBLOCK,NAME,NODE,COUNT; a negative number ends a range that the one before it begins.

@@ -69,8 +69,7 @@ class Reader {
         raw_.triangle_numbers.push_back(number);
         continue;
       }
-      if (!raw_.corners.empty() && (nodes == 10) == raw_.mid_edges.empty())
-        lines.fail("tetrahedra of first and of second order in one mesh");
+      if (raw_.has_other_order(nodes == 10)) lines.fail(mixed_orders);
       for (std::size_t k = 3; k < 3 + nodes; ++k)
         (k < 7 ? raw_.corners : raw_.mid_edges).push_back(lines.count(words[k]));
       raw_.tetrahedron_numbers.push_back(number);

@@ -1,9 +1,9 @@
 #include "export/inp.hpp"
 #include "export/raw_mesh.hpp"
 #include "export/raw_sets.hpp"
-#include "preproc/mesh/unit_comment.hpp"
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/input_file.hpp"
+#include "preproc/mesh/unit_comment.hpp"
 
 #include <fast_float/fast_float.h>
 
@@ -231,8 +231,7 @@ class Reader {
         fail("elements are not tetrahedra", place(keyword_line), it->second, "a mesh of C3D4 or of C3D10 elements");
       return pass_over_elements();
     }
-    if (!raw_.corners.empty() && quadratic == raw_.mid_edges.empty())
-      fail("tetrahedra of first and of second order in one mesh", place(keyword_line), it->second);
+    if (raw_.has_other_order(quadratic)) fail(mixed_orders, place(keyword_line), it->second);
     const std::size_t first = raw_.tetrahedron_numbers.size();
     const bool more =
         read_data(quadratic ? 10 : 4, raw_.tetrahedron_numbers, element_lines_,

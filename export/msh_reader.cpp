@@ -1,11 +1,11 @@
 #include "export/gmsh_elements.hpp"
 #include "export/msh.hpp"
 #include "export/raw_mesh.hpp"
-#include "preproc/mesh/unit_comment.hpp"
 #include "preproc/mesh/byte_order.hpp"
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/input_file.hpp"
 #include "preproc/mesh/text_scanner.hpp"
+#include "preproc/mesh/unit_comment.hpp"
 
 #include <algorithm>
 #include <array>
@@ -297,8 +297,7 @@ class Reader {
   }
 
   void add_tetrahedron(const std::array<std::uint64_t, 25>& nodes, bool quadratic) {
-    if (!raw_.corners.empty() && quadratic == raw_.mid_edges.empty())
-      in_.fail("tetrahedra of first and of second order in one mesh");
+    if (raw_.has_other_order(quadratic)) in_.fail(mixed_orders);
     raw_.corners.insert(raw_.corners.end(), nodes.begin(), nodes.begin() + 4);
     if (quadratic)
       for (const std::size_t k : gmsh_mid_edges) raw_.mid_edges.push_back(nodes[4 + k]);

@@ -137,6 +137,12 @@ NamedSurface surface_of(const RawMesh& raw, NodeMap& map, const Place& place_of_
 
 }  // namespace
 
+void RawMesh::add_tetrahedron(std::uint64_t number, std::span<const std::uint64_t> of_file) {
+  corners.insert(corners.end(), of_file.begin(), of_file.begin() + 4);
+  mid_edges.insert(mid_edges.end(), of_file.begin() + 4, of_file.end());
+  tetrahedron_numbers.push_back(number);
+}
+
 std::vector<std::uint64_t>& members_of(std::vector<RawSet>& sets, const std::string& name) {
   const auto it = std::find_if(sets.begin(), sets.end(), [&](const RawSet& s) { return s.name == name; });
   if (it != sets.end()) return it->members;

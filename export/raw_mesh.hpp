@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,7 +42,15 @@ struct RawMesh {
   std::vector<RawFaceSet> face_sets;
   std::string unit;
   std::size_t passed_over = 0;  // elements that are neither tetrahedra nor triangles
+
+  // Whether a tetrahedron of second order, or of first, is another one than those that there are.
+  bool has_other_order(bool second) const { return !corners.empty() && second == mid_edges.empty(); }
+  // Of four or ten nodes, and of no other order than those that there are.
+  void add_tetrahedron(std::uint64_t number, std::span<const std::uint64_t> nodes);
 };
+
+// What a reader says of it.
+inline constexpr const char* mixed_orders = "tetrahedra of first and of second order in one mesh";
 
 // The set of that name; it is made where there is none.
 std::vector<std::uint64_t>& members_of(std::vector<RawSet>& sets, const std::string& name);

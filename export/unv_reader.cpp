@@ -118,9 +118,9 @@ class Reader {
         parabolic{42, 52, 62, 72, 82, 92, 32, 1000};
     const auto is = [&](const auto& list) { return std::find(list.begin(), list.end(), type) != list.end(); };
     if (type == 111 && n.size() == 4) {
-      add_tetrahedron(number, {n[0], n[1], n[2], n[3]}, {});
+      add_tetrahedron(number, n);
     } else if (type == 118 && n.size() == 10) {
-      add_tetrahedron(number, {n[0], n[2], n[4], n[9]}, {n[1], n[3], n[5], n[6], n[7], n[8]});
+      add_tetrahedron(number, {n[0], n[2], n[4], n[9], n[1], n[3], n[5], n[6], n[7], n[8]});
     } else if ((is(linear) && n.size() == 3) || (is(parabolic) && n.size() == 6)) {
       const std::size_t step = n.size() / 3;
       raw_.triangles.insert(raw_.triangles.end(), {n[0], n[step], n[2 * step]});
@@ -132,13 +132,9 @@ class Reader {
     }
   }
 
-  void add_tetrahedron(std::uint64_t number, const std::vector<std::uint64_t>& corners,
-                       const std::vector<std::uint64_t>& mid_edges) {
-    if (!raw_.corners.empty() && mid_edges.empty() != raw_.mid_edges.empty())
-      lines_.fail("tetrahedra of first and of second order in one mesh");
-    raw_.corners.insert(raw_.corners.end(), corners.begin(), corners.end());
-    raw_.mid_edges.insert(raw_.mid_edges.end(), mid_edges.begin(), mid_edges.end());
-    raw_.tetrahedron_numbers.push_back(number);
+  void add_tetrahedron(std::uint64_t number, const std::vector<std::uint64_t>& nodes) {
+    if (raw_.has_other_order(nodes.size() == 10)) lines_.fail(mixed_orders);
+    raw_.add_tetrahedron(number, nodes);
   }
 
   // A head of eight numbers, the last of which counts the members; a name; members, each of four numbers (of two in old

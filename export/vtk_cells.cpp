@@ -12,15 +12,6 @@
 namespace scan2fea {
 namespace {
 
-[[noreturn]] void fail(const std::filesystem::path& file, std::string what, std::string value = {},
-                       std::string advice = {}) {
-  throw InvalidInput({.what = std::move(what),
-                      .where = file.string(),
-                      .value = std::move(value),
-                      .limit = {},
-                      .advice = std::move(advice)});
-}
-
 // Cells without volume: of points, lines and surfaces.
 bool is_not_solid(std::uint64_t type) {
   static constexpr std::array<std::uint64_t, 23> types{0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  21, 22,
@@ -61,26 +52,23 @@ class Gather {
     for (std::size_t c = 0; c < cells_.types.size(); begin = cells_.offsets[c], ++c) {
       const std::uint64_t end = cells_.offsets[c], type = cells_.types[c];
       if (end < begin || end > cells_.connectivity.size())
-        fail(file_, "cell " + std::to_string(c) + " has a wrong offset");
+        fail_vtk(file_, "cell " + std::to_string(c) + " has a wrong offset");
       const std::span<const std::uint64_t> nodes(cells_.connectivity.data() + begin, end - begin);
       if (type == vtk_tetra || type == vtk_quadratic_tetra)
         add_tetrahedron(c, nodes, type == vtk_quadratic_tetra);
       else if (is_not_solid(type))
         add_face(c, type, nodes);
       else
-        fail(file_, "cell " + std::to_string(c) + " is not a tetrahedron", "VTK type " + std::to_string(type),
-             "a mesh of tetrahedra");
+        fail_vtk(file_, "cell " + std::to_string(c) + " is not a tetrahedron", "VTK type " + std::to_string(type),
+                 "a mesh of tetrahedra");
     }
   }
 
   void add_tetrahedron(std::size_t cell, std::span<const std::uint64_t> nodes, bool quadratic) {
     const std::string name = "cell " + std::to_string(cell);
-    if (nodes.size() != (quadratic ? 10 : 4)) fail(file_, name + " has a wrong number of nodes");
-    if (!raw_.corners.empty() && quadratic == raw_.mid_edges.empty())
-      fail(file_, name + " is of another order than the cells before it");
-    raw_.corners.insert(raw_.corners.end(), nodes.begin(), nodes.begin() + 4);
-    raw_.mid_edges.insert(raw_.mid_edges.end(), nodes.begin() + 4, nodes.end());
-    raw_.tetrahedron_numbers.push_back(next_number());
+    if (nodes.size() != (quadratic ? 10 : 4)) fail_vtk(file_, name + " has a wrong number of nodes");
+    if (raw_.has_other_order(quadratic)) fail_vtk(file_, name + " is of another order than the cells before it");
+    raw_.add_tetrahedron(next_number(), nodes);
     cell_of_tetrahedron_.push_back(cell);
   }
 
@@ -113,8 +101,8 @@ class Gather {
     std::vector<std::uint32_t> corners;
     for (const std::uint64_t n : nodes) {
       if (n >= raw_.nodes.size())
-        fail(file_,
-             "cell " + std::to_string(cell) + ": element uses node " + std::to_string(n) + ", which is not defined");
+        fail_vtk(file_, "cell " + std::to_string(cell) + ": element uses node " + std::to_string(n) +
+                            ", which is not defined");
       corners.push_back(static_cast<std::uint32_t>(mesh.vertices.size()));
       mesh.vertices.push_back(raw_.nodes[n]);
     }
@@ -158,6 +146,14 @@ class Gather {
 };
 
 }  // namespace
+
+[[noreturn]] void fail_vtk(const std::filesystem::path& file, std::string what, std::string value, std::string advice) {
+  throw InvalidInput({.what = std::move(what),
+                      .where = file.string(),
+                      .value = std::move(value),
+                      .limit = {},
+                      .advice = std::move(advice)});
+}
 
 MeshFile mesh_of(const VtkCells& cells, const std::filesystem::path& file) {
   return Gather(cells, file).mesh();

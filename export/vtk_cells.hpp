@@ -27,6 +27,10 @@ struct VtkCells {
   std::string unit;
 };
 
+// Throws InvalidInput for what is wrong with a file as a whole.
+[[noreturn]] void fail_vtk(const std::filesystem::path& file, std::string what, std::string value = {},
+                           std::string advice = {});
+
 // Throws InvalidInput as the readers say.
 MeshFile mesh_of(const VtkCells& cells, const std::filesystem::path& file);
 

@@ -1,9 +1,9 @@
-#include "preproc/mesh/unit_comment.hpp"
 #include "export/vtk.hpp"
 #include "export/vtk_cells.hpp"
 #include "export/vtk_xml.hpp"
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/input_file.hpp"
+#include "preproc/mesh/unit_comment.hpp"
 
 #include <charconv>
 #include <stdexcept>
@@ -13,15 +13,6 @@ namespace {
 
 using vtk_xml::DataArray;
 using vtk_xml::Tag;
-
-[[noreturn]] void fail(const std::filesystem::path& file, std::string what, std::string value = {},
-                       std::string advice = {}) {
-  throw InvalidInput({.what = std::move(what),
-                      .where = file.string(),
-                      .value = std::move(value),
-                      .limit = {},
-                      .advice = std::move(advice)});
-}
 
 struct Grid {
   vtk_xml::Storage storage;
@@ -34,7 +25,7 @@ struct Grid {
 void begin_file(Grid& grid, const Tag& tag, const std::filesystem::path& file) {
   const std::string type = tag.attribute("type");
   if (type != "UnstructuredGrid" && type != "PolyData")
-    fail(file, "is neither an unstructured grid nor a surface", type, "saving it as .vtu or .vtp");
+    fail_vtk(file, "is neither an unstructured grid nor a surface", type, "saving it as .vtu or .vtp");
   grid.is_surface = type == "PolyData";
   const std::string compressor = tag.attribute("compressor");
   if (compressor == "vtkZLibDataCompressor")
@@ -42,7 +33,7 @@ void begin_file(Grid& grid, const Tag& tag, const std::filesystem::path& file) {
   else if (compressor == "vtkLZ4DataCompressor")
     grid.storage.compressor = vtk_xml::Compressor::lz4;
   else if (!compressor.empty())
-    fail(file, "is compressed in a way that is not read", compressor, "saving it with zlib, LZ4 or uncompressed");
+    fail_vtk(file, "is compressed in a way that is not read", compressor, "saving it with zlib, LZ4 or uncompressed");
   if (tag.attribute("byte_order") == "BigEndian") grid.storage.byte_order = std::endian::big;
   grid.storage.header_64 = tag.attribute("header_type") == "UInt64";
 }
@@ -66,7 +57,7 @@ Grid find_arrays(std::string_view text, const std::filesystem::path& file) {
       if (const auto unit = unit_in_comment(text.substr(0, position))) grid.unit = *unit;
       begin_file(grid, *tag, file);
     } else if (tag->name == "Piece") {
-      if (!grid.piece.name.empty()) fail(file, "has several pieces", {}, "merging the pieces");
+      if (!grid.piece.name.empty()) fail_vtk(file, "has several pieces", {}, "merging the pieces");
       grid.piece = *tag;
     } else if (is_section(tag->name)) {
       section = tag->name;
@@ -82,8 +73,8 @@ Grid find_arrays(std::string_view text, const std::filesystem::path& file) {
       break;  // what follows is data, not XML
     }
   }
-  if (!is_vtk) fail(file, "is not a VTK XML file");
-  if (grid.piece.name.empty()) fail(file, "has no piece");
+  if (!is_vtk) fail_vtk(file, "is not a VTK XML file");
+  if (grid.piece.name.empty()) fail_vtk(file, "has no piece");
   return grid;
 }
 
@@ -92,7 +83,7 @@ std::size_t piece_count(const Grid& grid, const char* attribute, const std::file
   std::size_t count = 0;
   const auto result = std::from_chars(text.data(), text.data() + text.size(), count);
   if (result.ec != std::errc() || result.ptr != text.data() + text.size())
-    fail(file, std::string(attribute) + " is not a number", text);
+    fail_vtk(file, std::string(attribute) + " is not a number", text);
   return count;
 }
 
@@ -100,11 +91,11 @@ template <class Read>
 auto array(const Grid& grid, const std::string& name, const std::filesystem::path& file, Read read) {
   const auto it = grid.arrays.find(name);
   const std::string shown = name.substr(name.find('/') + 1);
-  if (it == grid.arrays.end()) fail(file, "has no array " + shown);
+  if (it == grid.arrays.end()) fail_vtk(file, "has no array " + shown);
   try {
     return read(it->second, grid.storage);
   } catch (const std::runtime_error& error) {
-    fail(file, "array " + shown + " " + error.what());
+    fail_vtk(file, "array " + shown + " " + error.what());
   }
 }
 
@@ -112,7 +103,8 @@ template <class T>
 void require_size(const std::vector<T>& values, std::size_t size, const std::string& name,
                   const std::filesystem::path& file) {
   if (values.size() != size)
-    fail(file, "array " + name + " has a wrong size", std::to_string(values.size()) + ", not " + std::to_string(size));
+    fail_vtk(file, "array " + name + " has a wrong size",
+             std::to_string(values.size()) + ", not " + std::to_string(size));
 }
 
 void add_polygons(VtkCells& cells, const Grid& grid, const std::string& section, const char* count, std::uint64_t type,
@@ -124,7 +116,7 @@ void add_polygons(VtkCells& cells, const Grid& grid, const std::string& section,
   const std::size_t before = cells.connectivity.size();
   cells.connectivity.insert(cells.connectivity.end(), connectivity.begin(), connectivity.end());
   for (const std::uint64_t end : offsets) {
-    if (end > connectivity.size()) fail(file, "a cell of " + section + " has a wrong offset");
+    if (end > connectivity.size()) fail_vtk(file, "a cell of " + section + " has a wrong offset");
     cells.offsets.push_back(before + end);
     cells.types.push_back(type);
   }
