@@ -1,4 +1,5 @@
 #include "preproc/mesh/error.hpp"
+#include "preproc/mesh/length_unit.hpp"
 #include "preproc/surface/faces/selection.hpp"
 
 #include <algorithm>
@@ -12,9 +13,6 @@ namespace scan2fea {
 namespace {
 
 constexpr std::string_view plus_minus = "\u00b1";
-
-constexpr std::array<std::pair<std::string_view, double>, 6> units{
-    {{"um", 1e-6}, {"mm", 1e-3}, {"cm", 1e-2}, {"m", 1}, {"in", 0.0254}, {"ft", 0.3048}}};
 
 std::string lower(std::string_view text) {
   std::string result(text);
@@ -313,15 +311,12 @@ class Parser {
   double length() {
     const double value = number();
     const std::string_view word = peek_word();
-    const auto find = [](std::string_view name) {
-      return std::find_if(units.begin(), units.end(), [&](const auto& u) { return u.first == name; });
-    };
-    const auto own = find(lower(word));
-    if (word.empty() || own == units.end()) return value;
-    const auto model = find(lower(unit_));
-    if (model == units.end()) fail("a length has a unit, and the scan has none", "--unit mm");
+    // The short names alone: a longer word is one of the expression.
+    const std::string own = lower(word), model = lower(unit_);
+    if (length_unit(own) != own) return value;
+    if (length_unit(model) != model) fail("a length has a unit, and the scan has none", "--unit mm");
     at_ += word.size();
-    return value * own->second / model->second;
+    return value * metres(own) / metres(model);
   }
 
   std::string_view text_, unit_;
