@@ -1,5 +1,6 @@
 #include "preproc/made_up.hpp"
 
+#include "preproc/surface/kernel/nearest.hpp"
 #include "quality/triangle_tree.hpp"
 
 #include <algorithm>
@@ -8,10 +9,6 @@
 
 namespace scan2fea {
 namespace {
-
-Vec3 middle_of(const SurfaceMesh& mesh, const Triangle& t) {
-  return (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3;
-}
 
 double longest_edge(const SurfaceMesh& mesh, const Triangle& t) {
   double longest = 0;
@@ -30,7 +27,7 @@ std::vector<FaceOrigin> origins_by_place(const SurfaceMesh& made, const SurfaceM
   if (seen.triangles.empty()) return std::vector<FaceOrigin>(made.triangles.size(), FaceOrigin::filled);
   const TriangleTree tree(seen);
   for (const Triangle& t : made.triangles) {
-    const bool is_seen = tree.closest_within(middle_of(made, t), off_the_seen * longest_edge(made, t)).has_value();
+    const bool is_seen = tree.closest_within(centroid(made, t), off_the_seen * longest_edge(made, t)).has_value();
     origins.push_back(is_seen ? FaceOrigin::measured : FaceOrigin::filled);
   }
   return origins;
@@ -38,14 +35,10 @@ std::vector<FaceOrigin> origins_by_place(const SurfaceMesh& made, const SurfaceM
 
 std::vector<FaceOrigin> carried_origins(const SurfaceMesh& made, const SurfaceMesh& from,
                                         const std::vector<FaceOrigin>& of_from) {
-  const TriangleTree tree(from);
+  if (made.triangles == from.triangles) return of_from;
   std::vector<FaceOrigin> origins;
   origins.reserve(made.triangles.size());
-  std::uint32_t hint = 0;
-  for (const Triangle& t : made.triangles) {
-    hint = tree.closest(middle_of(made, t), hint).triangle;
-    origins.push_back(of_from[hint]);
-  }
+  for (const std::uint32_t f : nearest_faces(centroids(made), from)) origins.push_back(of_from[f]);
   return origins;
 }
 

@@ -2,7 +2,7 @@
 
 #include "preproc/mesh/error.hpp"
 #include "preproc/surface/faces/carry_sets.hpp"
-#include "quality/triangle_tree.hpp"
+#include "preproc/surface/kernel/nearest.hpp"
 
 #include <cstdint>
 #include <span>
@@ -19,11 +19,7 @@ FeatureOptions features_of(const PipelineOptions& options) {
 // The given sets on the surface that is to be simplified: by the nearest triangle where it is another one.
 std::vector<NamedSet> sets_on(const SurfaceMesh& scan, const SurfaceMesh& given, const std::vector<NamedSet>& sets) {
   if (sets.empty() || scan.triangles == given.triangles) return sets;
-  const TriangleTree tree(given);
-  std::vector<std::uint32_t> origin;
-  for (const auto& [a, b, c] : scan.triangles)
-    origin.push_back(tree.closest((scan.vertices[a] + scan.vertices[b] + scan.vertices[c]) / 3).triangle);
-  return carried_sets(sets, origin);
+  return carried_sets(sets, nearest_faces(centroids(scan), given));
 }
 
 std::vector<NamedSelection> with_given(std::vector<NamedSelection> selections, const std::vector<NamedSet>& given,
@@ -80,22 +76,27 @@ void carry_parts(const SelectedScan& selected, std::size_t asked, const Simplify
     if (selected.of_triangle[f] == example.size()) example.push_back(f);
   std::vector<std::uint32_t> origin;
   for (const std::uint32_t l : label) origin.push_back(example[l]);
-  const std::vector<NamedSet> carried = carried_sets(selected.sets, origin);
+  std::vector<NamedSet> carried = carried_sets(selected.sets, origin);
   for (std::size_t s = 0; s < carried.size(); ++s) {
-    const NamedSet& set = carried[s];
+    NamedSet& set = carried[s];
     if (set.members.empty() && s >= asked) continue;
-    MadeSet made{.name = set.name, .area_of_scan = selected.areas[s], .triangles = set.members.size()};
-    for (const std::uint32_t f : set.members) made.area += area_vector(surface, surface.triangles[f]).norm() / 2;
     if (set.members.empty())
       throw NotMeshable({.what = "nothing is left of the set " + set.name,
                          .where = {},
-                         .value = "area " + std::to_string(made.area_of_scan),
+                         .value = "area " + std::to_string(selected.areas[s]),
                          .limit = {},
                          .advice = "smaller triangles (--deviation, --faces, --size-ball), --method lattice"});
-    result.sets.push_back(std::move(made));
-    result.face_sets.push_back(set);
+    add_set(std::move(set), selected.areas[s], result);
   }
   result.faces = selected.faces;
+}
+
+void add_set(NamedSet set, std::optional<double> area_of_scan, PipelineResult& result) {
+  double area = 0;
+  for (const std::uint32_t f : set.members) area += area_vector(result.surface, result.surface.triangles[f]).norm() / 2;
+  result.sets.push_back(
+      {.name = set.name, .area_of_scan = area_of_scan.value_or(area), .area = area, .triangles = set.members.size()});
+  result.face_sets.push_back(std::move(set));
 }
 
 std::vector<bool> domain_of(const SurfaceMesh& scan, const NamedSelection& selection, const PipelineOptions& options,

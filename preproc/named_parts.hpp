@@ -20,6 +20,10 @@ SelectedScan select_parts(const SurfaceMesh& whole, const SurfaceMesh& given, co
 void carry_parts(const SelectedScan& selected, std::size_t asked, const SimplifyResult& simplified,
                  PipelineResult& result);
 
+// Puts a set of the result's triangles behind those that it has, with its figures. `area_of_scan`: where not given,
+// that of the set.
+void add_set(NamedSet set, std::optional<double> area_of_scan, PipelineResult& result);
+
 // The vertices of the faces that are selected.
 std::vector<bool> domain_of(const SurfaceMesh& scan, const NamedSelection& selection, const PipelineOptions& options,
                             const Progress& progress);

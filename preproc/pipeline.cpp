@@ -280,14 +280,8 @@ std::vector<FaceOrigin> origins_of_scan(const PipelineResult& result, const Surf
 // Sets of what was made up, after the user's own.
 void add_made_up_sets(const SurfaceMesh& start, const std::vector<FaceOrigin>& of_start, PipelineResult& result) {
   if (of_start.empty()) return;
-  for (NamedSet& set : made_up_sets(carried_origins(result.surface, start, of_start))) {
-    MadeSet made{.name = set.name, .triangles = set.members.size()};
-    for (const std::uint32_t f : set.members)
-      made.area += area_vector(result.surface, result.surface.triangles[f]).norm() / 2;
-    made.area_of_scan = made.area;
-    result.sets.push_back(std::move(made));
-    result.face_sets.push_back(std::move(set));
-  }
+  for (NamedSet& set : made_up_sets(carried_origins(result.surface, start, of_start)))
+    add_set(std::move(set), {}, result);
 }
 
 // `seen`: of a cloud, the faces that close no gap.

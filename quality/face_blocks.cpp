@@ -39,7 +39,7 @@ FaceBlocks::FaceBlocks(const SurfaceMesh& mesh) : order_(mesh.triangles.size()) 
     tbb::parallel_for(Range(0, n, 4096), [&](const Range& range) {
       for (std::size_t f = range.begin(); f < range.end(); ++f) {
         const Triangle& t = mesh.triangles[f];
-        const Vec3 centre = (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3;
+        const Vec3 centre = centroid(mesh, t);
         const Vec3 cell = scale * (centre - whole.low);
         keys[f] = {morton_code(static_cast<std::uint64_t>(cell.x()), static_cast<std::uint64_t>(cell.y()),
                                static_cast<std::uint64_t>(cell.z())),

@@ -173,9 +173,7 @@ TEST(Pipeline, WhatNoScannerSawIsASetOfItsOwn) {
   const auto is_missing = [&](const Vec3& p) {
     return p.z() > size.z() - 1e-9 && p.x() > 5 && p.x() < 8 && p.y() > 3 && p.y() < 6;
   };
-  std::erase_if(scan.triangles, [&](const Triangle& t) {
-    return is_missing((scan.vertices[t[0]] + scan.vertices[t[1]] + scan.vertices[t[2]]) / 3);
-  });
+  std::erase_if(scan.triangles, [&](const Triangle& t) { return is_missing(centroid(scan, t)); });
   PipelineOptions options;
   options.simplify->size = FaceCount{2000};
   const PipelineResult result = run_pipeline(scan, options);
@@ -185,8 +183,7 @@ TEST(Pipeline, WhatNoScannerSawIsASetOfItsOwn) {
   double area = 0;
   for (const std::uint32_t f : filled.members) {
     const Triangle& t = result.surface.triangles[f];
-    const Vec3 middle =
-        (result.surface.vertices[t[0]] + result.surface.vertices[t[1]] + result.surface.vertices[t[2]]) / 3;
+    const Vec3 middle = centroid(result.surface, t);
     EXPECT_TRUE(is_missing(middle)) << middle.transpose();
     area += area_vector(result.surface, t).norm() / 2;
   }

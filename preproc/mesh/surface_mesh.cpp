@@ -12,6 +12,13 @@ BoundingBox bounding_box(const std::vector<Vec3>& points) {
   return box;
 }
 
+std::vector<Vec3> centroids(const SurfaceMesh& mesh) {
+  std::vector<Vec3> result;
+  result.reserve(mesh.triangles.size());
+  for (const Triangle& t : mesh.triangles) result.push_back(centroid(mesh, t));
+  return result;
+}
+
 double enclosed_volume(const SurfaceMesh& mesh) {
   const BoundingBox box = bounding_box(mesh.vertices);
   const Vec3 centre = 0.5 * (box.low + box.high);

@@ -42,6 +42,13 @@ inline Vec3 area_vector(const SurfaceMesh& mesh, const Triangle& t) {
   return (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a);
 }
 
+inline Vec3 centroid(const SurfaceMesh& mesh, const Triangle& t) {
+  return (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3;
+}
+
+// Per triangle.
+std::vector<Vec3> centroids(const SurfaceMesh& mesh);
+
 // Enclosed volume by the divergence theorem about the bounding box's centre (so that far-off coordinates cost no
 // digits); positive where normals point outwards. Meaningless for an open surface.
 double enclosed_volume(const SurfaceMesh& mesh);

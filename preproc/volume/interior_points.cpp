@@ -162,7 +162,7 @@ double thin_wall_share(const SurfaceMesh& surface, const InsideTest& inside) {
     const Triangle& t = surface.triangles[i];
     const Vec3 normal = area_vector(surface, t);
     const double edge = (of_vertex[t[0]] + of_vertex[t[1]] + of_vertex[t[2]]) / 3;
-    const Vec3 centre = (surface.vertices[t[0]] + surface.vertices[t[1]] + surface.vertices[t[2]]) / 3;
+    const Vec3 centre = centroid(surface, t);
     all += normal.norm();
     if (find_wall(surface, inside.tree(), centre, normal.normalized(), {.deepest = wall_in_edges * edge}))
       thin += normal.norm();

@@ -105,8 +105,7 @@ class Scan {
   }
   Spot centre(Index f) const {
     const Triangle& t = mesh.triangles[f];
-    return {f, (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3,
-            (normal(t[0]) + normal(t[1]) + normal(t[2])) / 3};
+    return {f, centroid(mesh, t), (normal(t[0]) + normal(t[1]) + normal(t[2])) / 3};
   }
   // What the surface faces there: on a face of known shape, its shape's normal.
   Vec3 facing(const Spot& spot) const {

@@ -7,21 +7,14 @@
 #include <numbers>
 
 namespace scan2fea {
-namespace {
-
-Vec3 centroid(const SurfaceMesh& scan, std::uint32_t f) {
-  const Triangle& t = scan.triangles[f];
-  return (scan.vertices[t[0]] + scan.vertices[t[1]] + scan.vertices[t[2]]) / 3;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 NormalFilter::NormalFilter(const SurfaceMesh& scan, const VertexStars& stars, std::vector<std::uint32_t> faces)
     : faces_(std::move(faces)), first_{0} {
   double distances = 0;
   for (const std::uint32_t f : faces_) {
     areas_.push_back(area_vector(scan, scan.triangles[f]).norm());
-    const Vec3 centre = centroid(scan, f);
+    const Vec3 centre = centroid(scan, scan.triangles[f]);
     const auto begin = static_cast<std::ptrdiff_t>(ring_.size());
     for (const std::uint32_t v : scan.triangles[f])
       for (const std::uint32_t c : stars.corners(v))
@@ -29,7 +22,7 @@ NormalFilter::NormalFilter(const SurfaceMesh& scan, const VertexStars& stars, st
     std::sort(ring_.begin() + begin, ring_.end());
     ring_.erase(std::unique(ring_.begin() + begin, ring_.end()), ring_.end());
     for (std::size_t i = first_.back(); i < ring_.size(); ++i) {
-      weight_.push_back((centre - centroid(scan, ring_[i])).norm());
+      weight_.push_back((centre - centroid(scan, scan.triangles[ring_[i]])).norm());
       distances += weight_.back();
     }
     first_.push_back(ring_.size());

@@ -37,7 +37,7 @@ struct FaceCentres {
     centroids.reserve(mesh.triangles.size());
     normals.reserve(mesh.triangles.size());
     for (const Triangle& t : mesh.triangles) {
-      centroids.push_back((mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3);
+      centroids.push_back(centroid(mesh, t));
       normals.push_back((at_vertices[t[0]] + at_vertices[t[1]] + at_vertices[t[2]]).normalized());
     }
   }
@@ -95,8 +95,8 @@ SurfaceDefects find_defects(const SurfaceMesh& mesh, const ReferenceSurface& sca
     const Triangle& t = mesh.triangles[f];
     const Vec3 normal = area_vector(mesh, t);
     if (normal.dot(scan.vertex_normals[near[f]]) < 0) {
-      const Vec3 centroid = (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3;
-      if (!scan_agrees(scan, near[f], centroid, edge, normal)) defects.inverted.push_back(f);
+      const Vec3 centre = centroid(mesh, t);
+      if (!scan_agrees(scan, near[f], centre, edge, normal)) defects.inverted.push_back(f);
     }
     const double angle = smallest_angle_deg(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
     if (angle < least_angle_deg) {

@@ -19,10 +19,6 @@ constexpr double longest_scan_edge = 0.7;
 // be a little farther.
 constexpr double held_within = 0.75;
 
-Vec3 centroid(const SurfaceMesh& mesh, const Triangle& t) {
-  return (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3;
-}
-
 // The scan with its triangles cut where they are long, for a mesh of this edge length.
 SurfaceMesh cut_fine(const SurfaceMesh& scan, double edge) {
   const double longest = longest_scan_edge * edge;

@@ -12,8 +12,7 @@ double area_of(const SurfaceMesh& mesh, std::uint32_t face) {
 }
 
 Vec3 centre_of(const SurfaceMesh& mesh, std::uint32_t face) {
-  const Triangle& t = mesh.triangles[face];
-  return (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3;
+  return centroid(mesh, mesh.triangles[face]);
 }
 
 FaceMarks marks_of(std::span<const FacePair> pairs, std::size_t face_count) {

@@ -217,7 +217,7 @@ Twins make_manifold(SurfaceMesh& mesh, RepairResult& result) {
     for (std::size_t f = 0; f < turned.size(); ++f)
       if (turned[f]) {
         const Triangle& t = mesh.triangles[f];
-        const Vec3 centre = (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3;
+        const Vec3 centre = centroid(mesh, t);
         result.changes.push_back({RepairKind::TurnedFaces, centre, area_vector(mesh, t).norm() / 2});
       }
     for (const std::uint32_t v : split_vertices(mesh, twins))

@@ -29,12 +29,7 @@ std::vector<double> deviation_at_scan(const SurfaceMesh& mesh, const ReferenceSu
   std::vector<double> deviation(scan.mesh.vertices.size());
   for (std::size_t v = 0; v < deviation.size(); ++v) deviation[v] = of_face[face_of_scan_vertex[v]];
   // Where the mesh is finer than the scan, many faces are nearest to no scan vertex.
-  std::vector<Vec3> centroids(mesh.triangles.size());
-  for (std::size_t f = 0; f < centroids.size(); ++f) {
-    const auto& [a, b, c] = mesh.triangles[f];
-    centroids[f] = (mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]) / 3;
-  }
-  const std::vector<std::uint32_t> scan_face = nearest_faces(centroids, scan.mesh);
+  const std::vector<std::uint32_t> scan_face = nearest_faces(centroids(mesh), scan.mesh);
   for (std::size_t f = 0; f < scan_face.size(); ++f)
     for (const std::uint32_t v : scan.mesh.triangles[scan_face[f]]) deviation[v] = std::max(deviation[v], of_face[f]);
   return deviation;

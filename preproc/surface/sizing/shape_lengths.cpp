@@ -149,7 +149,7 @@ class ShapeLengths {
         // What is known of the triangle that this one is a part of bounds the search.
         length_[f] = std::min(longest_, slack * (known[t[0]] + known[t[1]] + known[t[2]]) / 3);
         if (!(normals[f].squaredNorm() > 0)) continue;
-        const Vec3 middle = (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3;
+        const Vec3 middle = centroid(mesh, t);
         if (may_be_wall[f])
           if (const auto wall = find_wall(mesh, tree, middle, normals[f], {.deepest = length_[f] / lengths_of_wall}))
             length_[f] = std::min(length_[f], lengths_of_wall * wall->thickness);

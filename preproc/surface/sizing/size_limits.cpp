@@ -88,7 +88,7 @@ void limit_across(const SurfaceMesh& scan, int elements, double longest_edge, st
   for_each_block(scan.triangles.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t f = first; f < last; ++f) {
       const Triangle& t = scan.triangles[f];
-      const Vec3 middle = (scan.vertices[t[0]] + scan.vertices[t[1]] + scan.vertices[t[2]]) / 3;
+      const Vec3 middle = centroid(scan, t);
       const auto wall = find_wall(scan, tree, middle, normals[f], {.deepest = elements * longest_edge});
       thickness[f] = wall ? wall->thickness : infinity;
     }
