@@ -2,7 +2,6 @@
 
 #include "preproc/mesh/error.hpp"
 #include "preproc/surface/collapse/collapse.hpp"
-#include "preproc/surface/features/feature_selection.hpp"
 #include "preproc/surface/fit/preserve_volume.hpp"
 #include "preproc/surface/kernel/clear_moves.hpp"
 #include "preproc/surface/kernel/components.hpp"
@@ -12,6 +11,7 @@
 #include "preproc/surface/mending/local_refinement.hpp"
 #include "preproc/surface/mending/mend_places.hpp"
 #include "preproc/surface/mending/mend_surface.hpp"
+#include "preproc/surface/simplification/fewer_creases.hpp"
 #include "preproc/surface/simplification/scan_by_shape.hpp"
 #include "preproc/surface/simplification/shape_check.hpp"
 #include "preproc/surface/sizing/shape_lengths.hpp"
@@ -129,10 +129,7 @@ void finish(Candidate& candidate, const FitPlan& plan, const MendOptions& option
       return;
     if (mend_few_tangles(candidate, mended.after, plan.within_deviation, progress)) return;
     candidate.failure = describe(mended.after);
-    const auto centre = [&](std::uint32_t f) {
-      const auto& [a, b, c] = candidate.mesh.triangles[f];
-      return Vec3((candidate.mesh.vertices[a] + candidate.mesh.vertices[b] + candidate.mesh.vertices[c]) / 3);
-    };
+    const auto centre = [&](std::uint32_t f) { return centroid(candidate.mesh, candidate.mesh.triangles[f]); };
     for (const FacePair& pair : mended.after.crossings) candidate.failed_at.push_back(centre(pair.face));
     for (const std::uint32_t f : mended.after.inverted) candidate.failed_at.push_back(centre(f));
   } catch (const NotMeshable& e) {
@@ -295,23 +292,6 @@ Candidate by_collapse(const PreparedScanPointer& scan, double faces, const Simpl
   // It may end in needles that turn over, as the paper's does; what is sound for a mesher crosses nothing.
   if (!mended.after.crossings.empty()) candidate.failure = describe(mended.after);
   return candidate;
-}
-
-// The scan without the short creases near the places where a surface failed.
-PreparedScanPointer without_short_creases(const Candidate& failed) {
-  constexpr double longest = 0.5;  // of a body's diagonal: the folds of a scan, not the edges of a part
-  constexpr double reach = 2;      // mean edges
-  const PreparedScan& scan = *failed.scan;
-  const double edge = equilateral_edge(surface_area(failed.mesh), static_cast<double>(failed.faces()));
-  return with_creases(failed.scan, without_short_creases_near(scan.mesh, scan.creases(), failed.failed_at, reach * edge,
-                                                              longest * body_sizes(scan.mesh).largest));
-}
-
-// The same without all creases that come within so many mean edges: of long ones, the pieces there.
-PreparedScanPointer without_pieces(const Candidate& failed, const std::vector<Vec3>& places, double reach) {
-  const PreparedScan& scan = *failed.scan;
-  const double edge = equilateral_edge(surface_area(failed.mesh), static_cast<double>(failed.faces()));
-  return with_creases(failed.scan, without_creases_near(scan.mesh, scan.creases(), places, reach * edge));
 }
 
 // Where the lattice failed with creases since triangles of the wanted size are too large for them: without the short
