@@ -2,6 +2,10 @@
 
 #include <gmsh.h>
 
+#if defined(__SANITIZE_ADDRESS__)
+#include <sanitizer/lsan_interface.h>
+#endif
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -127,9 +131,11 @@ MachinedPart meshed() {
   return part;
 }
 
-}  // namespace
-
-MachinedPart machined_part(double edge, double noise, std::uint64_t seed) {
+MachinedPart drawn_and_meshed(double edge) {
+#if defined(__SANITIZE_ADDRESS__)
+  // Gmsh and OpenCASCADE keep some of what they allocate until the program ends: that is theirs to free.
+  const __lsan::ScopedDisabler leaks_are_not_ours;
+#endif
   gmsh::initialize();
   gmsh::option::setNumber("General.Terminal", 0);
   gmsh::option::setNumber("General.NumThreads", 1);
@@ -140,6 +146,13 @@ MachinedPart machined_part(double edge, double noise, std::uint64_t seed) {
   gmsh::model::mesh::generate(2);
   MachinedPart part = meshed();
   gmsh::finalize();
+  return part;
+}
+
+}  // namespace
+
+MachinedPart machined_part(double edge, double noise, std::uint64_t seed) {
+  MachinedPart part = drawn_and_meshed(edge);
   std::mt19937_64 random(seed);
   const double sigma = noise * bounding_box(part.scan.vertices).diagonal();
   std::normal_distribution<double> normal;  // not of `sigma`, which may be zero here and may not there
