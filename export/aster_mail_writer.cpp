@@ -1,8 +1,8 @@
 #include "export/aster_mail.hpp"
 #include "export/set_names.hpp"
 #include "export/text_output.hpp"
-#include "preproc/mesh/unit_comment.hpp"
 #include "preproc/mesh/output_file.hpp"
+#include "preproc/mesh/unit_comment.hpp"
 
 #include <charconv>
 #include <span>
@@ -107,17 +107,30 @@ void write_groups(TextOutput& out, const char* keyword, std::span<const NamedSet
   }
 }
 
+// Sets of faces are groups of elements, too.
+WrittenNames names_of_whole(const TetMesh& mesh, Notes& notes) {
+  const NameRules rules{
+      .longest = 24, .upper_case = false, .allowed = "_", .starts_with_letter = true, .keeps_reserved = true};
+  WrittenNames names{.nodes = {}, .faces = {}, .elements = names_for(mesh.element_sets, rules, {}, notes)};
+  names.faces = names_for(mesh.face_sets, rules, names.elements, notes);
+  names.nodes = names_for(mesh.node_sets, rules, {}, notes);
+  return names;
+}
+
 }  // namespace
+
+WrittenNames names_in_mail(const TetMesh& mesh, Notes& notes) {
+  TetMesh sets;  // the mesh itself is not needed
+  sets.node_sets = mesh.node_sets;
+  sets.face_sets = mesh.face_sets;
+  sets.element_sets = mesh.element_sets;
+  return names_of_whole(with_whole_sets(sets, notes), notes);
+}
 
 Notes write_mail(const TetMesh& given, const std::filesystem::path& file, const FileOptions& options) {
   Notes notes;
   const TetMesh mesh = with_whole_sets(given, notes);
-  const NameRules rules{
-      .longest = 24, .upper_case = false, .allowed = "_", .starts_with_letter = true, .keeps_reserved = true};
-  std::vector<NamedSet> of_elements = mesh.element_sets;  // and of faces: groups of elements, all of them
-  of_elements.insert(of_elements.end(), mesh.face_sets.begin(), mesh.face_sets.end());
-  const std::vector<std::string> elements = names_for(of_elements, rules, {}, notes);
-  const std::vector<std::string> nodes = names_for(mesh.node_sets, rules, {}, notes);
+  const WrittenNames names = names_of_whole(mesh, notes);
   OutputFile output(file);
   {
     TextOutput out(output.stream());
@@ -127,11 +140,9 @@ Notes write_mail(const TetMesh& given, const std::filesystem::path& file, const 
     write_nodes(out, mesh.nodes);
     write_tetrahedra(out, mesh);
     const std::vector<std::uint64_t> triangles = write_triangles(out, mesh);
-    const std::span<const std::string> names(elements);
-    write_groups(out, "GROUP_MA", mesh.element_sets, names, [](std::uint32_t t) { return element(t + 1UL); });
-    write_groups(out, "GROUP_MA", mesh.face_sets, names.subspan(mesh.element_sets.size()),
-                 [&](std::uint32_t f) { return element(triangles[f]); });
-    write_groups(out, "GROUP_NO", mesh.node_sets, nodes, node);
+    write_groups(out, "GROUP_MA", mesh.element_sets, names.elements, [](std::uint32_t t) { return element(t + 1UL); });
+    write_groups(out, "GROUP_MA", mesh.face_sets, names.faces, [&](std::uint32_t f) { return element(triangles[f]); });
+    write_groups(out, "GROUP_NO", mesh.node_sets, names.nodes, node);
     out << "FIN\n";
   }
   output.commit();

@@ -12,6 +12,7 @@
 #pragma once
 
 #include "export/mesh_file.hpp"
+#include "export/set_names.hpp"
 
 #include <filesystem>
 
@@ -24,6 +25,9 @@ namespace scan2fea {
 // and names that had to be changed.
 // Precondition: mesh.boundary lists the boundary faces. Throws IoError; an existing file is then untouched. O(n).
 Notes write_inp(const TetMesh& mesh, const std::filesystem::path& file, const FileOptions& options = {});
+
+// What write_inp calls the sets of a mesh; notes those that had to be changed.
+WrittenNames names_in_inp(const TetMesh& mesh, Notes& notes);
 
 // As elements S3, sets of faces as *ELSET.
 Notes write_inp(const NamedSurface& surface, const std::filesystem::path& file, const FileOptions& options = {});

@@ -2,8 +2,8 @@
 #include "export/set_names.hpp"
 #include "export/smallest_determinant.hpp"
 #include "export/text_output.hpp"
-#include "preproc/mesh/unit_comment.hpp"
 #include "preproc/mesh/output_file.hpp"
+#include "preproc/mesh/unit_comment.hpp"
 
 #include <algorithm>
 #include <array>
@@ -88,20 +88,6 @@ void write_sets(TextOutput& out, const char* keyword, std::span<const NamedSet> 
 // CalculiX takes 80 characters, of which a surface's parts need six.
 constexpr NameRules rules{.longest = 74, .upper_case = true, .allowed = "_-.", .starts_with_letter = true};
 
-// Names of surfaces, and with their parts' endings those that element and node sets must not have.
-struct SurfaceNames {
-  std::vector<std::string> names, parts, nodes;
-};
-
-SurfaceNames surface_names(const TetMesh& mesh, Notes& notes) {
-  SurfaceNames surfaces{.names = names_for(mesh.face_sets, rules, {}, notes), .parts = {}, .nodes = {}};
-  for (const std::string& name : surfaces.names) {
-    for (const char* end : {"_S1", "_S2", "_S3", "_S4"}) surfaces.parts.push_back(name + end);
-    surfaces.nodes.push_back(name + "_NODES");
-  }
-  return surfaces;
-}
-
 Notes determinant_notes(const TetMesh& mesh, const std::filesystem::path& file) {
   const SmallestDeterminant smallest = smallest_determinant(mesh);
   if (smallest.value >= calculix_smallest_determinant || mesh.tetrahedra.empty()) return {};
@@ -118,11 +104,22 @@ Notes determinant_notes(const TetMesh& mesh, const std::filesystem::path& file) 
 
 }  // namespace
 
+// The parts of a surface and its nodes are named after it, and element and node sets must not have these names.
+WrittenNames names_in_inp(const TetMesh& mesh, Notes& notes) {
+  WrittenNames names{.nodes = {}, .faces = names_for(mesh.face_sets, rules, {}, notes), .elements = {}};
+  std::vector<std::string> parts, nodes;
+  for (const std::string& name : names.faces) {
+    for (const char* end : {"_S1", "_S2", "_S3", "_S4"}) parts.push_back(name + end);
+    nodes.push_back(name + "_NODES");
+  }
+  names.elements = names_for(mesh.element_sets, rules, parts, notes);
+  names.nodes = names_for(mesh.node_sets, rules, nodes, notes);
+  return names;
+}
+
 Notes write_inp(const TetMesh& mesh, const std::filesystem::path& file, const FileOptions& options) {
   Notes notes = determinant_notes(mesh, file);
-  const SurfaceNames surfaces = surface_names(mesh, notes);
-  const std::vector<std::string> elements = names_for(mesh.element_sets, rules, surfaces.parts, notes);
-  const std::vector<std::string> nodes = names_for(mesh.node_sets, rules, surfaces.nodes, notes);
+  const WrittenNames names = names_in_inp(mesh, notes);
   OutputFile output(file);
   {
     TextOutput out(output.stream());
@@ -132,13 +129,13 @@ Notes write_inp(const TetMesh& mesh, const std::filesystem::path& file, const Fi
     write_comment(out, "sets: NALL (nodes), EALL (elements), SALL (surface), SALL_NODES (nodes of the surface)");
     write_nodes(out, mesh.nodes);
     write_elements(out, mesh);
-    write_sets(out, "*ELSET, ELSET=", mesh.element_sets, elements);
-    write_sets(out, "*NSET, NSET=", mesh.node_sets, nodes);
+    write_sets(out, "*ELSET, ELSET=", mesh.element_sets, names.elements);
+    write_sets(out, "*NSET, NSET=", mesh.node_sets, names.nodes);
     std::vector<std::uint32_t> all(mesh.boundary.size());
     std::iota(all.begin(), all.end(), 0U);
     write_surface_set(out, mesh, "SALL", all);
     for (std::size_t s = 0; s < mesh.face_sets.size(); ++s)
-      write_surface_set(out, mesh, surfaces.names[s], mesh.face_sets[s].members);
+      write_surface_set(out, mesh, names.faces[s], mesh.face_sets[s].members);
   }
   output.commit();
   return notes;

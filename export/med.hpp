@@ -7,6 +7,7 @@
 #pragma once
 
 #include "export/mesh_file.hpp"
+#include "export/set_names.hpp"
 
 #include <filesystem>
 
@@ -15,6 +16,9 @@ namespace scan2fea {
 // Throws IoError; an existing file is then untouched. Coordinates are kept to the bit. O(n).
 Notes write_med(const TetMesh& mesh, const std::filesystem::path& file, const FileOptions& options = {});
 Notes write_med(const NamedSurface& surface, const std::filesystem::path& file, const FileOptions& options = {});
+
+// What write_med calls the sets of a mesh; notes those that had to be changed.
+WrittenNames names_in_med(const TetMesh& mesh, Notes& notes);
 
 // Reads the first mesh of the file. Throws InvalidInput naming the file: unreadable, not MED, no elements, other solids
 // than tetrahedra, orders mixed.

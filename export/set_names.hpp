@@ -31,6 +31,11 @@ TetMesh with_whole_sets(const TetMesh& mesh, std::vector<std::string>& notes);
 std::vector<std::string> names_for(std::span<const NamedSet> sets, const NameRules& rules,
                                    std::span<const std::string> taken, std::vector<std::string>& warnings);
 
+// What the sets of a mesh are called in a file, in their order.
+struct WrittenNames {
+  std::vector<std::string> nodes, faces, elements;
+};
+
 // Members that are in the same sets are one part. Formats that give each element one number give that of its part.
 struct SetParts {
   std::vector<std::uint32_t> part;             // per member; 0 is the part that is in no set

@@ -1,5 +1,6 @@
 #include "export/formats.hpp"
 #include "export/units.hpp"
+#include "preproc/command/deck_needs.hpp"
 #include "preproc/command/element_fields.hpp"
 #include "preproc/command/flags.hpp"
 #include "preproc/command/output_files.hpp"
@@ -19,6 +20,8 @@ struct ConvertFlags {
   std::filesystem::path output;
   bool force = false;
   std::optional<std::string> unit, scale;
+  std::optional<DeckKind> deck;
+  std::vector<std::string> sets;  // NEW=OLD
   MshVersion msh_version = MshVersion::v4_1;
   bool ascii = false;
   bool quiet = false;
@@ -46,8 +49,28 @@ void tell(const Notes& notes) {
   for (const std::string& note : notes) std::fprintf(stderr, "scan2fea: warning: %s\n", note.c_str());
 }
 
+void name_sets_again(MeshFile& mesh, const ConvertFlags& flags) {
+  if (auto* volume = std::get_if<TetMesh>(&mesh.mesh)) {
+    add_named_again(flags.sets, volume->node_sets, volume->face_sets, &volume->element_sets);
+  } else {
+    auto& surface = std::get<NamedSurface>(mesh.mesh);
+    add_named_again(flags.sets, surface.node_sets, surface.face_sets, nullptr);
+  }
+}
+
+void require_deck(const TetMesh& mesh, const ConvertFlags& flags) {
+  DeckSubject subject{
+      .input = flags.input.string(), .sets = {}, .offered = {}, .points = &mesh.nodes, .unit = mesh.unit};
+  for (const NamedSet& set : mesh.face_sets) subject.offered.push_back(set.name);
+  subject.sets = subject.offered;
+  for (const NamedSet& set : mesh.node_sets) subject.sets.push_back(set.name);
+  require_for_deck(*flags.deck, subject);
+}
+
 int convert(const ConvertFlags& flags) {
-  require_writable({{flags.output}}, {flags.input}, flags.force);
+  std::vector<OutputPath> files{{flags.output}};
+  if (flags.deck) files.push_back({deck_file(flags.output, *flags.deck)});
+  require_writable(files, {flags.input}, flags.force);
   if (!writes_volume(flags.output) && !writes_surface(flags.output))
     throw WrongUsage({.what = "unknown format of the output",
                       .where = flags.output.string(),
@@ -58,6 +81,7 @@ int convert(const ConvertFlags& flags) {
   MeshFile read = read_mesh(flags.input);
   for (const std::string& warning : read.warnings) tell({flags.input.string() + ": " + warning});
   settle_unit(read, flags, display);
+  name_sets_again(read, flags);
   FileOptions options{.provenance = flags.input.filename().string(),
                       .msh_version = flags.msh_version,
                       .fields = {},
@@ -72,7 +96,13 @@ int convert(const ConvertFlags& flags) {
     tell(write_surface(*surface, flags.output, options));
   } else if (const auto& mesh = std::get<TetMesh>(read.mesh); writes_volume(flags.output)) {
     if (find_format(flags.output)->volume->element_fields) options.fields = element_fields(mesh);
+    StagedOutputs deck;
+    if (flags.deck) {
+      require_deck(mesh, flags);
+      deck.add(files[1].file, deck_text(mesh, flags.output, *flags.deck));
+    }
     tell(write_volume(mesh, flags.output, options));
+    deck.commit();
   } else {
     display.line("the boundary was written; " + flags.output.string() + " holds no tetrahedra");
     Notes notes;
@@ -96,6 +126,10 @@ SubCommand add_convert(CLI::App& root) {
   add_unit_flag(*app, flags->unit);
   app->add_option("--scale", flags->scale, "Convert from one unit to another, e.g. mm:m")->type_name("FROM:TO");
   app->add_flag("--ascii", flags->ascii, "STL and PLY as text");
+  app->add_option("--set", flags->sets, "A set of the input gets another name, too: fixed=CLAMP (repeatable)")
+      ->type_name("NEW=OLD")
+      ->allow_extra_args(false);
+  add_deck_flag(*app, flags->deck);
   add_msh_version_flag(*app, flags->msh_version);
   app->add_flag("--quiet", flags->quiet, "No messages but errors");
   return {app, [flags] { return convert(*flags); }};

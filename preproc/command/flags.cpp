@@ -418,6 +418,13 @@ void add_tetrahedralize_flags(CLI::App& command, TetrahedralizeOptions& options,
       ->type_name("Q");
 }
 
+void add_deck_flag(CLI::App& command, std::optional<DeckKind>& deck) {
+  add_choice<DeckKind>(
+      command, "--deck", deck, {{"static", DeckKind::static_analysis}, {"modal", DeckKind::modal}},
+      "Also write a deck that runs, beside an .inp for CalculiX, beside a .med or .mail for Code_Aster; "
+      "for sets named fixed and loaded");
+}
+
 void add_msh_version_flag(CLI::App& command, MshVersion& version) {
   add_choice<MshVersion>(command, "--msh-version", version, {{"2.2", MshVersion::v2_2}, {"4.1", MshVersion::v4_1}},
                          "Of Gmsh's format, if that is what is written; 4.1 is the default");

@@ -2,6 +2,7 @@
 // field.
 #pragma once
 
+#include "export/deck.hpp"
 #include "export/formats.hpp"
 #include "preproc/pipeline.hpp"
 
@@ -72,6 +73,7 @@ void add_feature_file_flags(CLI::App& command, FeatureFileFlags& flags);  // aft
 // For the stages that `options` has by then.
 void add_effort_flag(CLI::App& command, PipelineOptions& options);
 void add_tetrahedralize_flags(CLI::App& command, TetrahedralizeOptions& options, int& order);
+void add_deck_flag(CLI::App& command, std::optional<DeckKind>& deck);
 void add_msh_version_flag(CLI::App& command, MshVersion& version);
 
 }  // namespace scan2fea::command

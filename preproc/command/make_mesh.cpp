@@ -3,6 +3,7 @@
 #include "export/formats.hpp"
 #include "export/surface_files.hpp"
 #include "export/units.hpp"
+#include "preproc/command/deck_needs.hpp"
 #include "preproc/command/early_end.hpp"
 #include "preproc/command/element_fields.hpp"
 #include "preproc/command/figures.hpp"
@@ -132,9 +133,28 @@ void parse_sets(MakeMeshJob& job) {
   }
 }
 
+// Sets that the scan came with stay.
+void require_deck(const MakeMeshJob& job, const Scan& scan) {
+  if (!job.deck) return;
+  DeckSubject subject{.input = job.common.input.string(),
+                      .sets = {},
+                      .offered = {},
+                      .points = nullptr,
+                      .unit = job.common.unit.value_or("")};
+  for (const NamedSelection& set : job.pipeline.sets) subject.sets.push_back(set.name);
+  for (const NamedSet& set : job.pipeline.given_sets) {
+    subject.sets.push_back(set.name);
+    subject.offered.push_back(set.name);
+  }
+  const auto* mesh = std::get_if<SurfaceMesh>(&scan);
+  subject.points = mesh != nullptr ? &mesh->vertices : &std::get<PointCloud>(scan).points;
+  require_for_deck(*job.deck, subject);
+}
+
 void require_writable_outputs(const MakeMeshJob& job) {
   std::vector<OutputPath> outputs = report_outputs(job.common);
   outputs.push_back({job.output});
+  if (job.deck) outputs.push_back({deck_file(job.output, *job.deck)});
   if (job.features.write) outputs.push_back({*job.features.write});
   std::vector<std::filesystem::path> inputs = inputs_of(job.common);
   if (job.features.read) inputs.push_back(*job.features.read);
@@ -147,7 +167,6 @@ Notes write_result(PipelineResult& result, const MakeMeshJob& job) {
   options.provenance = job.common.input.filename().string();
   options.msh_version = job.msh_version;
   if (result.volume_mesh) {
-    result.volume_mesh->unit = unit;
     if (find_format(job.output)->volume->element_fields) options.fields = element_fields(*result.volume_mesh);
     return write_volume(*result.volume_mesh, job.output, options);
   }
@@ -190,6 +209,7 @@ int make_mesh(MakeMeshJob job) {
   parse_sets(job);
   if (!job.enrich_domain.empty())
     job.pipeline.enrich_domain = parse_selection("domain=" + job.enrich_domain, job.common.unit.value_or(""));
+  require_deck(job, scan);
   display.line(describe(scan, job.common));
   for (const std::string& warning : warnings_of(scan, job.common))
     std::fprintf(stderr, "scan2fea: warning: %s: %s\n", job.common.input.c_str(), warning.c_str());
@@ -224,6 +244,12 @@ int make_mesh(MakeMeshJob job) {
       outputs.commit();
       return 1;
     }
+  }
+  if (result.volume_mesh) result.volume_mesh->unit = job.common.unit.value_or("");
+  if (job.deck) {
+    const std::filesystem::path file = deck_file(job.output, *job.deck);
+    outputs.add(file, deck_text(*result.volume_mesh, job.output, *job.deck));
+    display.line("a deck: " + file.string());
   }
   if (job.features.write) outputs.add(*job.features.write, text_of(result.features));
   for (const std::string& note : write_result(result, job)) display.line("warning: " + note);

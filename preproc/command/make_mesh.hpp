@@ -21,6 +21,7 @@ struct MakeMeshJob {
   bool enrich = false;  // --enrich of the commands in which that stage is a choice
   EnrichOptions enrich_options;
   std::string enrich_domain;  // an expression; empty: everywhere
+  std::optional<DeckKind> deck;
   MshVersion msh_version = MshVersion::v4_1;
 };
 

@@ -59,8 +59,15 @@ Triangle boundary_mid_edge_nodes(const TetMesh& mesh, BoundaryFace f);
 // about the fourth power of the bend.
 double curved_area(const std::array<Vec3, 6>& nodes);
 
+// A boundary face of any order: the corners of `boundary_triangle`, then the nodes between 12, 23 and 31, which of
+// first order are where straight edges have their middles.
+std::array<Vec3, 6> boundary_face_nodes(const TetMesh& mesh, BoundaryFace f);
+
 // Of the face as it is: of second order curved.
 double face_area(const TetMesh& mesh, BoundaryFace f);
+
+// The integral of its normal, outwards: what a pressure pushes against, less its sign. Exact.
+Vec3 face_vector_area(const TetMesh& mesh, BoundaryFace f);
 
 // All nodes of boundary faces, those in the middle of their edges too; sorted.
 std::vector<std::uint32_t> nodes_of_faces(const TetMesh& mesh, std::span<const std::uint32_t> faces);
