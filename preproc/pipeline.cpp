@@ -338,9 +338,11 @@ void run_stages(SurfaceMesh scan, const SurfaceMesh* seen, const PipelineOptions
     result.volume_mesh = std::move(made.filled.mesh);
     const std::vector<std::uint32_t>& parent = made.filled.boundary_parent;  // where the boundary was split
     result.volume_mesh->face_sets = parent.empty() ? result.face_sets : carried_sets(result.face_sets, parent);
-    if (options.order == 2)
+    if (options.order == 2) {
       log.run("second order",
               [&](StageRecord& record) { curve(start, lines_of_scan(result, made, chain), result, record); });
+      result.weak_places = find_weak_places(result.surface, &*result.volume_mesh, result.reference());
+    }
   }
 }
 

@@ -55,8 +55,7 @@ Worst worst_of(const SurfaceMesh& mesh) {
 Worst worst_of(const TetMesh& mesh) {
   Worst worst;
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
-    const auto& [a, b, c, d] = mesh.tetrahedra[t];
-    const TetShape shape = measure_tetrahedron(mesh.nodes[a], mesh.nodes[b], mesh.nodes[c], mesh.nodes[d]);
+    const TetShape shape = measure_tetrahedron(mesh, t);
     worst.meet(t, shape.min_dihedral_deg, shape.edge_ratio.value_or(std::numeric_limits<double>::max()));
   }
   return worst;

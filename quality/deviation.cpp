@@ -2,6 +2,7 @@
 
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/splitmix64.hpp"
+#include "quality/curved_surface.hpp"
 #include "quality/triangle_tree.hpp"
 #include "quality/validity.hpp"
 
@@ -29,27 +30,30 @@ class IndexedRandom {
   std::uint64_t key_;
 };
 
+// What distances are measured from and to: a mesh, or the flat pieces of a curved one.
 struct Surface {
   const SurfaceMesh& mesh;
   TriangleTree tree;
-  std::vector<double> area_up_to;  // inclusive, along the tree's leaf order
-  std::vector<Vec3> vertices;      // in the order in which the leaves meet them
+  std::vector<double> area_up_to;      // inclusive, along the tree's leaf order
+  std::vector<Vec3> vertices;          // in the order in which the leaves meet them
+  const FlatPieces* pieces = nullptr;  // of which the samples are on the curves
+  const TetMesh* solid = nullptr;      // whose boundary these are
 
   explicit Surface(const SurfaceMesh& m) : mesh(m), tree(m) {
+    add_areas();
     std::vector<char> met(m.vertices.size(), 0);
-    area_up_to.reserve(m.triangles.size());
-    double sum = 0;
-    for (const std::uint32_t t : tree.leaf_order()) {
-      sum += 0.5 * area_vector(m, m.triangles[t]).norm();
-      area_up_to.push_back(sum);
-      for (const std::uint32_t v : m.triangles[t]) {
-        if (met[v] == 0) vertices.push_back(m.vertices[v]);
-        met[v] = 1;
-      }
-    }
-    for (std::size_t v = 0; v < met.size(); ++v)
-      if (met[v] == 0) vertices.push_back(m.vertices[v]);
+    for (const std::uint32_t t : tree.leaf_order())
+      for (const std::uint32_t v : m.triangles[t]) meet(m.vertices, v, met);
+    for (std::uint32_t v = 0; v < met.size(); ++v) meet(m.vertices, v, met);
   }
+
+  Surface(const FlatPieces& p, const TetMesh& of) : mesh(p.mesh), tree(p.mesh), pieces(&p), solid(&of) {
+    add_areas();
+    std::vector<char> met(p.nodes.size(), 0);
+    for (const std::uint32_t t : tree.leaf_order())
+      for (const std::uint32_t v : p.curved[p.of_piece[t]].nodes) meet(p.nodes, v, met);
+  }
+
   double area() const { return area_up_to.back(); }
 
   // A random point of the i-th of n parts of equal area.
@@ -58,10 +62,26 @@ struct Surface {
     const auto leaf =
         std::min<std::ptrdiff_t>(std::upper_bound(area_up_to.begin(), area_up_to.end(), position) - area_up_to.begin(),
                                  static_cast<std::ptrdiff_t>(area_up_to.size()) - 1);
-    const auto& [a, b, c] = mesh.triangles[tree.leaf_order()[static_cast<std::size_t>(leaf)]];
+    const std::uint32_t triangle = tree.leaf_order()[static_cast<std::size_t>(leaf)];
+    const auto& [a, b, c] = mesh.triangles[triangle];
     // Uniform over the triangle (Osada et al., "Shape distributions", 2002, eq. 1).
     const double r = std::sqrt(random(3 * i + 1)), s = random(3 * i + 2);
+    if (pieces != nullptr) return pieces->on_curve(triangle, 1 - r, r * (1 - s));
     return (1 - r) * mesh.vertices[a] + r * (1 - s) * mesh.vertices[b] + r * s * mesh.vertices[c];
+  }
+
+ private:
+  void add_areas() {
+    area_up_to.reserve(mesh.triangles.size());
+    double sum = 0;
+    for (const std::uint32_t t : tree.leaf_order()) {
+      sum += 0.5 * area_vector(mesh, mesh.triangles[t]).norm();
+      area_up_to.push_back(sum);
+    }
+  }
+  void meet(const std::vector<Vec3>& points, std::uint32_t v, std::vector<char>& met) {
+    if (met[v] == 0) vertices.push_back(points[v]);
+    met[v] = 1;
   }
 };
 
@@ -102,8 +122,10 @@ Distances measure_side(const Surface& from, const Surface& to, std::size_t sampl
 }
 
 std::optional<double> volume_of(const Surface& surface) {
-  if (!check_validity(surface.mesh).encloses_volume()) return std::nullopt;
-  const double volume = std::abs(enclosed_volume(surface.mesh));
+  const SurfaceMesh boundary = surface.solid != nullptr ? boundary_surface(*surface.solid) : SurfaceMesh{};
+  if (!check_validity(surface.solid != nullptr ? boundary : surface.mesh).encloses_volume()) return std::nullopt;
+  const double volume =
+      std::abs(surface.solid != nullptr ? total_volume(*surface.solid) : enclosed_volume(surface.mesh));
   const bool is_flat = volume <= least_volume_of_area * std::pow(surface.area(), 1.5);
   return is_flat ? std::nullopt : std::optional(volume);
 }
@@ -117,10 +139,7 @@ void require_area(const Surface& surface, const std::string& which) {
                         .advice = {}});
 }
 
-}  // namespace
-
-Deviation measure_deviation(const SurfaceMesh& mesh, const SurfaceMesh& reference, const DeviationOptions& options) {
-  const Surface own(mesh), other(reference);
+Deviation between(const Surface& own, const Surface& other, const DeviationOptions& options) {
   require_area(own, "mesh");
   require_area(other, "reference");
 
@@ -136,7 +155,7 @@ Deviation measure_deviation(const SurfaceMesh& mesh, const SurfaceMesh& referenc
   const Distances to_mesh = measure_side(other, own, options.samples, IndexedRandom(options.seed + 1));
   deviation.farthest_is_on_reference = to_mesh.largest_squared > to_reference.largest_squared;
   const Distances& worse = deviation.farthest_is_on_reference ? to_mesh : to_reference;
-  const double diagonal = bounding_box(reference.vertices).diagonal();
+  const double diagonal = bounding_box(other.mesh.vertices).diagonal();
   deviation.hausdorff = std::sqrt(worse.largest_squared);
   deviation.farthest_point = worse.farthest;
   deviation.nearest_to_farthest = worse.nearest_to_it;
@@ -150,6 +169,19 @@ Deviation measure_deviation(const SurfaceMesh& mesh, const SurfaceMesh& referenc
   deviation.rms_pct_diagonal =
       std::max(deviation.from_mesh.rms_pct_diagonal, deviation.from_reference.rms_pct_diagonal);
   return deviation;
+}
+
+}  // namespace
+
+Deviation measure_deviation(const SurfaceMesh& mesh, const SurfaceMesh& reference, const DeviationOptions& options) {
+  return between(Surface(mesh), Surface(reference), options);
+}
+
+Deviation measure_deviation(const TetMesh& mesh, const SurfaceMesh& reference, const DeviationOptions& options) {
+  if (mesh.order() == 1) return measure_deviation(boundary_surface(mesh), reference, options);
+  const double tolerance = flat_enough_of_diagonal * bounding_box(reference.vertices).diagonal();
+  const FlatPieces pieces = flat_pieces(mesh, tolerance);
+  return between(Surface(pieces, mesh), Surface(reference), options);
 }
 
 }  // namespace scan2fea

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "preproc/mesh/surface_mesh.hpp"
+#include "preproc/mesh/tet_mesh.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -47,5 +48,9 @@ struct Deviation {
 // does not depend on the number of threads. Vertices that no triangle uses count: in a scan they are measured points.
 Deviation measure_deviation(const SurfaceMesh& mesh, const SurfaceMesh& reference,
                             const DeviationOptions& options = {});
+
+// Of the boundary of a mesh of tetrahedra, which of second order is curved: its nodes and random points of its curves
+// are measured, and points of the reference to flat pieces that are no farther from them than 2e-5 of the diagonal.
+Deviation measure_deviation(const TetMesh& mesh, const SurfaceMesh& reference, const DeviationOptions& options = {});
 
 }  // namespace scan2fea

@@ -86,19 +86,7 @@ std::array<std::size_t, 2> longest_edge(const Cell& cell) {
 
 }  // namespace
 
-CurvedTetrahedron curved_tetrahedron(const TetMesh& mesh, std::size_t tetrahedron) {
-  CurvedTetrahedron nodes;
-  for (std::size_t i = 0; i < 4; ++i) nodes[i] = mesh.nodes[mesh.tetrahedra[tetrahedron][i]];
-  for (std::size_t e = 0; e < 6; ++e) {
-    const auto& [i, j] = tetrahedron_edges[e];
-    nodes[4 + e] = mesh.order() == 2
-                       ? mesh.nodes[mesh.mid_edge_nodes[tetrahedron][e]]
-                       : Vec3(0.5 * (nodes[static_cast<std::size_t>(i)] + nodes[static_cast<std::size_t>(j)]));
-  }
-  return nodes;
-}
-
-JacobianBound min_jacobian_bound(const CurvedTetrahedron& nodes, double tolerance) {
+JacobianBound min_jacobian_bound(const CurvedTetrahedron& nodes, double tolerance, JacobianWanted wanted) {
   std::vector<Cell> heap{whole_element(nodes)};
   double scale = 0;
   for (const double b : heap[0].blossom) scale = std::max(scale, std::abs(b));
@@ -109,7 +97,8 @@ JacobianBound min_jacobian_bound(const CurvedTetrahedron& nodes, double toleranc
   const auto higher = [](const Cell& a, const Cell& b) { return a.lower > b.lower; };
   for (;;) {
     const double lower = heap.front().lower;
-    if (lower > 0 || upper <= 0 || !(upper - lower > tolerance * scale)) return {lower, upper};
+    const bool is_certain = wanted == JacobianWanted::sign && (lower > 0 || upper <= 0);
+    if (is_certain || !(upper - lower > tolerance * scale)) return {lower, upper};
     std::pop_heap(heap.begin(), heap.end(), higher);
     const Cell cell = heap.back();
     heap.pop_back();

@@ -8,24 +8,20 @@
 
 #include "preproc/mesh/tet_mesh.hpp"
 
-#include <array>
-
 namespace scan2fea {
-
-// Corners, then mid-edge nodes in the order of `tetrahedron_edges`.
-using CurvedTetrahedron = std::array<Vec3, 10>;
-
-CurvedTetrahedron curved_tetrahedron(const TetMesh& mesh, std::size_t tetrahedron);
 
 struct JacobianBound {
   double lower;  // the Jacobian is nowhere less
   double upper;  // and somewhere at most this
 };
 
+enum class JacobianWanted { sign, value };
+
 // Bounds on the smallest Jacobian over the element, in model units cubed (six times the volume where the edges are
-// straight). Refined until the sign is certain or the bounds differ by less than `tolerance` of the largest
-// coefficient: lower > 0 proves the element valid, upper <= 0 that it is not. About 1 us where no refinement is needed,
-// the rule.
-JacobianBound min_jacobian_bound(const CurvedTetrahedron& nodes, double tolerance = 1e-3);
+// straight). Refined until the bounds differ by less than `tolerance` of the largest coefficient or, where that is all
+// that is wanted, the sign is certain: lower > 0 proves the element valid, upper <= 0 that it is not. About 1 us where
+// no refinement is needed, the rule.
+JacobianBound min_jacobian_bound(const CurvedTetrahedron& nodes, double tolerance = 1e-3,
+                                 JacobianWanted wanted = JacobianWanted::sign);
 
 }  // namespace scan2fea

@@ -13,6 +13,8 @@
 //   faces [{name, kind, area, triangles, place, what its kind has}],
 //   sets [{name, kind, area, area_of_scan, area_difference_pct, triangles}],
 //   regions [{name, area, faces}], gates [{name, operator, value, limit, pass}]
+// Of a volume mesh of second order, volumes, areas, deviation, points and volume_mesh are those of the curved elements
+// (see TetShape); what is said of triangles, edge ratios and angles, is of their corners.
 // A section that was not measured is left out; a figure that has no meaning, as the genus of an open surface, is null.
 // Numbers are finite. The keys' meanings are those of the structs that the figures come from.
 #pragma once

@@ -1,8 +1,10 @@
 // Shape of tetrahedra, in the measures of Verdict (Stimpson et al., "The Verdict geometric quality library", 2007).
 //
-// The figures are those of the corner nodes, that is of the straight-edged tetrahedron; a second-order element has the
-// same ones plus curved edges, which can turn it inside out though its corners are in order: for those see
-// jacobian_bound.hpp, which `measure_tetrahedra` asks before it calls an element valid.
+// The figures of a second-order element are those of the curved element; where its edges are straight and its nodes in
+// their middles, those of its corners. The scaled Jacobian is the smallest over the whole element, by a lower bound
+// (jacobian_bound.hpp) over the longest edges at a corner; dihedral angles are those between the tangent planes of the
+// faces at the ends and in the middle of each edge; edges are as long as their curves. The radius-edge ratio is that of
+// the corners, since no sphere goes through ten nodes: it is a figure of how points lie, not of how good an element is.
 //
 // Every figure is finite. Dihedral angles of a flat tetrahedron are 0 or 180, its scaled Jacobian is 0; its
 // circumscribed radius is infinite and its edge ratio may be, so tetrahedra without volume enter neither of these two,
@@ -19,12 +21,15 @@ namespace scan2fea {
 struct TetShape {
   double min_dihedral_deg;  // 70.5288 for a regular tetrahedron; of the geometric shape, whatever its orientation
   double max_dihedral_deg;
-  double scaled_jacobian;            // sqrt(2) * smallest over the corners of J / (l1 l2 l3); regular 1, inverted < 0
-  std::optional<double> edge_ratio;  // longest edge / shortest edge; none without volume
+  double scaled_jacobian;                   // sqrt(2) * J / the largest l1 l2 l3 of a corner; regular 1, inverted < 0
+  std::optional<double> edge_ratio;         // longest edge / shortest edge; none without volume
   std::optional<double> radius_edge_ratio;  // circumscribed radius / shortest edge, regular 0.6124; none without volume
 };
 
 TetShape measure_tetrahedron(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+
+// Of an element of the mesh, of either order.
+TetShape measure_tetrahedron(const TetMesh& mesh, std::size_t tetrahedron);
 
 struct TetSummary {
   std::size_t nodes = 0;
@@ -37,8 +42,8 @@ struct TetSummary {
   } scaled_jacobian;
   double edge_ratio = 0;         // the largest
   double radius_edge_ratio = 0;  // the largest
-  double volume = 0;             // of the straight-edged tetrahedra
-  std::size_t inverted = 0;      // volume <= 0, or second order and its Jacobian not positive throughout
+  double volume = 0;             // of the elements as they are
+  std::size_t inverted = 0;      // the Jacobian is not positive throughout
 };
 
 // O(n), parallel; the result does not depend on the number of threads.

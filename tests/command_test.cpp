@@ -347,6 +347,49 @@ TEST_F(Command, RunFillsTheVolumeOfTheScan) {
   EXPECT_THAT(contents(path("part.inp")), HasSubstr("C3D10"));
 }
 
+// The file tells what `run` told, and gates hold what the elements are, not what their corners are.
+TEST_F(Command, FiguresOfSecondOrderAreOfTheCurvedElements) {
+  const std::string scan = scan_of_a_sphere(), part = path("curved.vtu");
+  const auto made = run_command("run '" + scan + "' -o '" + part + "' --faces 300 --order 2 --quiet --json -");
+  ASSERT_EQ(made.exit_code, 0) << made.standard_error;
+  const auto report = nlohmann::json::parse(made.standard_output);
+  for (const auto& stage : report.at("stages"))
+    if (stage.at("name") == "second order") {
+      EXPECT_EQ(report.at("volume_mesh").at("volume"), stage.at("curved_volume"));
+      EXPECT_NE(report.at("volume_mesh").at("scaled_jacobian").at("min"), stage.at("least_jacobian_of_straight"));
+    }
+  EXPECT_EQ(report.at("surface").at("volume"), report.at("volume_mesh").at("volume"));
+  const auto check = [&](const std::string& flags) { return run_command("check '" + part + "' --quiet " + flags); };
+  const auto found = nlohmann::json::parse(check("--reference '" + scan + "' --json -").standard_output);
+  for (const char* figure : {"volume", "edge_ratio", "min_dihedral_deg", "max_dihedral_deg"})
+    EXPECT_NEAR(found.at("volume_mesh").at(figure).get<double>(), report.at("volume_mesh").at(figure).get<double>(),
+                1e-9 * std::abs(report.at("volume_mesh").at(figure).get<double>()))
+        << figure;
+  for (const char* figure : {"hausdorff_pct_diagonal", "rms_pct_diagonal", "volume_difference_pct"})
+    EXPECT_NEAR(found.at("deviation").at(figure).get<double>(), report.at("deviation").at(figure).get<double>(), 1e-4)
+        << figure;
+  // As surfaces they are the straight ones of the corners, which lie farther off.
+  ASSERT_EQ(run_command("convert '" + part + "' -o '" + path("corners.ply") + "' --quiet").exit_code, 0);
+  const auto corners = nlohmann::json::parse(
+      run_command("check '" + path("corners.ply") + "' --reference '" + scan + "' --quiet --json -").standard_output);
+  const double straight = corners.at("deviation").at("rms_pct_diagonal"),
+               curved = found.at("deviation").at("rms_pct_diagonal");
+  EXPECT_LT(curved, straight);
+  const auto gate = [](const std::string& name, double limit) {
+    return " --require '" + name + "<=" + std::to_string(limit) + "'";
+  };
+  const double between = 0.5 * (straight + curved);
+  EXPECT_EQ(check("--reference '" + scan + "'" + gate("rms_pct_diagonal", between)).exit_code, 0);
+  EXPECT_EQ(run_command("check '" + path("corners.ply") + "' --quiet --reference '" + scan + "'" +
+                        gate("rms_pct_diagonal", between))
+                .exit_code,
+            1);
+  // A second-order mesh as the reference is curved, too.
+  const auto itself = nlohmann::json::parse(check("--reference '" + part + "' --json -").standard_output);
+  EXPECT_LT(itself.at("deviation").at("hausdorff_pct_diagonal").get<double>(), 0.005);
+  EXPECT_NEAR(itself.at("deviation").at("volume_difference_pct").get<double>(), 0, 1e-9);
+}
+
 TEST_F(Command, BytesAreTheSameForAnyNumberOfThreads) {
   const std::string command = "run '" + scan_of_a_sphere() + "' --faces 1000 -o '";
   ASSERT_EQ(run_command(command + path("one.inp") + "' --threads 1").exit_code, 0);

@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
+#include <vector>
 
 namespace scan2fea {
 namespace {
@@ -117,7 +119,98 @@ TEST(TetrahedronMeasures, ACurvedEdgeCanInvert) {
   mesh.nodes[mesh.mid_edge_nodes[0][0]] = {0.2, 0, 0};
   const TetSummary summary = measure_tetrahedra(mesh);
   EXPECT_EQ(summary.inverted, 1U);
-  EXPECT_GT(summary.scaled_jacobian.min, 0);  // of the corners
+  EXPECT_LT(summary.scaled_jacobian.min, 0);
+}
+
+// Elements of which every node was moved.
+std::vector<TetMesh> bent_tetrahedra() {
+  std::mt19937 generator(5);
+  std::uniform_real_distribution<double> shift(-0.06, 0.06);
+  std::vector<TetMesh> bent;
+  for (int i = 0; i < 40; ++i) {
+    bent.push_back(with_straight_mid_edge_nodes(one_tetrahedron({0, 0, 0}, {1, 0, 0}, {0.2, 1, 0}, {0.1, 0.3, 1})));
+    for (Vec3& p : bent.back().nodes) p += Vec3(shift(generator), shift(generator), shift(generator));
+  }
+  return bent;
+}
+
+TEST(TetrahedronMeasures, OfBentElementsAreNotThoseOfTheirCorners) {
+  for (const TetMesh& mesh : bent_tetrahedra()) {
+    const CurvedTetrahedron x = curved_tetrahedron(mesh, 0);
+    double least = 1e9;
+    constexpr int n = 12;
+    for (int i = 0; i <= n; ++i)
+      for (int j = 0; i + j <= n; ++j)
+        for (int k = 0; i + j + k <= n; ++k) {
+          const auto [u, v, w] =
+              derivatives_at(x, {double(n - i - j - k) / n, double(i) / n, double(j) / n, double(k) / n});
+          least = std::min(least, u.cross(v).dot(w));
+        }
+    // Chords are at most as long as the curved edges, so this is an upper bound.
+    double product = 0;
+    for (std::size_t c = 0; c < 4; ++c) {
+      double of_corner = 1;
+      for (std::size_t d = 0; d < 4; ++d) of_corner *= d == c ? 1 : (x[c] - x[d]).norm();
+      product = std::max(product, of_corner);
+    }
+    const TetShape shape = measure_tetrahedron(mesh, 0);
+    const double sampled = std::numbers::sqrt2 * least / product;
+    EXPECT_LE(shape.scaled_jacobian, sampled + 1e-12);
+    EXPECT_GE(shape.scaled_jacobian, 0.95 * sampled - 0.02);
+    EXPECT_NE(shape.scaled_jacobian, measure_tetrahedron(x[0], x[1], x[2], x[3]).scaled_jacobian);
+  }
+}
+
+// Between the tangents of the two faces at right angles to the edge, by differences.
+TEST(TetrahedronMeasures, DihedralAnglesAreThoseOfTheCurvedFaces) {
+  for (const TetMesh& mesh : bent_tetrahedra()) {
+    const CurvedTetrahedron x = curved_tetrahedron(mesh, 0);
+    const auto at = [&](const std::array<double, 4>& b) {
+      Vec3 p = Vec3::Zero();
+      for (std::size_t i = 0; i < 4; ++i) p += b[i] * (2 * b[i] - 1) * x[i];
+      for (std::size_t e = 0; e < 6; ++e)
+        p += 4 * b[static_cast<std::size_t>(tetrahedron_edges[e][0])] *
+             b[static_cast<std::size_t>(tetrahedron_edges[e][1])] * x[4 + e];
+      return p;
+    };
+    double least = 180, largest = 0;
+    for (const auto& [i, j] : tetrahedron_edges)
+      for (const double along : {0.0, 0.5, 1.0}) {
+        std::array<double, 4> b{0, 0, 0, 0};
+        b[static_cast<std::size_t>(i)] = 1 - along;
+        b[static_cast<std::size_t>(j)] = along;
+        constexpr double step = 1e-6;
+        const auto towards = [&](std::size_t corner) {
+          std::array<double, 4> c = b;
+          for (double& value : c) value *= 1 - step;
+          c[corner] += step;
+          return Vec3((at(c) - at(b)) / step);
+        };
+        std::vector<Vec3> sides;
+        Vec3 edge = towards(static_cast<std::size_t>(along < 1 ? j : i));
+        edge.normalize();
+        for (std::size_t k = 0; k < 4; ++k)
+          if (static_cast<int>(k) != i && static_cast<int>(k) != j) {
+            const Vec3 t = towards(k);
+            sides.push_back((t - t.dot(edge) * edge).normalized());
+          }
+        const double angle = std::acos(sides[0].dot(sides[1])) * 180 / std::numbers::pi;
+        least = std::min(least, angle);
+        largest = std::max(largest, angle);
+      }
+    const TetShape shape = measure_tetrahedron(mesh, 0);
+    EXPECT_NEAR(shape.min_dihedral_deg, least, 0.01);
+    EXPECT_NEAR(shape.max_dihedral_deg, largest, 0.01);
+  }
+}
+
+TEST(TetrahedronMeasures, ACurvedEdgeIsAsLongAsItsCurve) {
+  TetMesh mesh = with_straight_mid_edge_nodes(one_tetrahedron({0, 0, 0}, {2, 0, 0}, {1, 2, 0}, {1, 1, 2}));
+  const double straight = *measure_tetrahedron(mesh, 0).edge_ratio;
+  EXPECT_NEAR(straight, std::sqrt(6) / 2, 1e-12);
+  mesh.nodes[mesh.mid_edge_nodes[0][0]].y() = -0.1;  // a parabola over a chord of 2, as high as 0.1
+  const double arc = std::sqrt(1.04) + std::asinh(0.2) / 0.2;
+  EXPECT_NEAR(*measure_tetrahedron(mesh, 0).edge_ratio, std::sqrt(6) / arc, 1e-5);
 }
 
 TEST(TetrahedronMeasures, OfNothingAreZero) {

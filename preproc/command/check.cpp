@@ -8,6 +8,7 @@
 #include "preproc/mesh/read_cloud.hpp"
 #include "preproc/surface/features/feature_file.hpp"
 #include "preproc/surface/repair/openings.hpp"
+#include "quality/curved_surface.hpp"
 
 #include <algorithm>
 
@@ -38,11 +39,16 @@ Loaded load(const std::filesystem::path& file) {
   return loaded;
 }
 
-// A cloud tells distances of its points only.
+// A cloud tells distances of its points only. Of a mesh of second order the surface is curved, in flat pieces, and the
+// volume is told.
 void load_reference(const std::filesystem::path& file, std::optional<SurfaceMesh>& surface,
-                    std::optional<PointCloud>& cloud) {
+                    std::optional<PointCloud>& cloud, std::optional<double>& volume) {
   if (find_format(file) != nullptr && find_format(file)->volume) {
-    surface = load(file).surface;
+    Loaded loaded = load(file);
+    const bool is_curved = loaded.volume_mesh && loaded.volume_mesh->order() == 2;
+    volume = is_curved ? std::optional(total_volume(*loaded.volume_mesh)) : std::nullopt;
+    const double tolerance = flat_enough_of_diagonal * bounding_box(loaded.surface.vertices).diagonal();
+    surface = is_curved ? flat_pieces(*loaded.volume_mesh, tolerance).mesh : std::move(loaded.surface);
     return;
   }
   Scan scan = read_scan(file);
@@ -88,10 +94,11 @@ int check(CheckFlags flags) {
   display.line(describe_input(mesh.surface, flags.common));
   std::optional<SurfaceMesh> reference;
   std::optional<PointCloud> cloud;
-  if (flags.reference) load_reference(*flags.reference, reference, cloud);
+  std::optional<double> volume;
+  if (flags.reference) load_reference(*flags.reference, reference, cloud, volume);
   const Subject subject{.surface = &mesh.surface,
                         .reference = reference ? &*reference : nullptr,
-                        .solid_volume = {},
+                        .solid_volume = volume,
                         .volume_mesh = mesh.volume_mesh ? &*mesh.volume_mesh : nullptr,
                         .stages = nullptr,
                         .repaired = nullptr,

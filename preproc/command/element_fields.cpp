@@ -12,7 +12,7 @@ std::vector<ElementField> element_fields(const TetMesh& mesh) {
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
     const auto& [a, b, c, d] = mesh.tetrahedra[t];
     const std::vector<Vec3>& x = mesh.nodes;
-    const TetShape shape = measure_tetrahedron(x[a], x[b], x[c], x[d]);
+    const TetShape shape = measure_tetrahedron(mesh, t);
     fields[0].values.push_back(shape.scaled_jacobian);
     fields[1].values.push_back(shape.min_dihedral_deg);
     if (mesh.order() == 1) continue;

@@ -2,6 +2,7 @@
 
 #include "preproc/command/face_files.hpp"
 #include "preproc/surface/repair/solid_volume.hpp"
+#include "quality/curved_surface.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -77,16 +78,27 @@ Json to_json(const std::vector<MadeSet>& sets) {
 Json measure(const Subject& subject, const CommonFlags& flags) {
   Report report;
   report.input = flags.input.string();
+  const bool is_curved = subject.volume_mesh != nullptr && subject.volume_mesh->order() == 2;
   if (subject.surface != nullptr) report.surface = measure_surface(*subject.surface);
+  if (subject.surface != nullptr && is_curved) {
+    report.surface->area = 0;
+    for (const BoundaryFace f : subject.volume_mesh->boundary)
+      report.surface->area += face_area(*subject.volume_mesh, f);
+    if (report.surface->volume) report.surface->volume = total_volume(*subject.volume_mesh);
+  }
   if (subject.surface != nullptr && subject.reference != nullptr) {
     std::optional<double> volume = subject.solid_volume;
     if (!volume && encloses_volume(*subject.surface)) volume = volume_of_solid(*subject.reference);
-    report.deviation =
-        measure_deviation(*subject.surface, *subject.reference, {.seed = flags.seed, .reference_volume = volume});
+    const DeviationOptions how{.seed = flags.seed, .reference_volume = volume};
+    report.deviation = is_curved ? measure_deviation(*subject.volume_mesh, *subject.reference, how)
+                                 : measure_deviation(*subject.surface, *subject.reference, how);
   }
-  if (subject.surface != nullptr && subject.cloud != nullptr)
-    report.points = measure_point_distances(subject.cloud->points, *subject.surface,
-                                            subject.outliers ? *subject.outliers : std::vector<Vec3>{});
+  if (subject.surface != nullptr && subject.cloud != nullptr) {
+    const double tolerance = flat_enough_of_diagonal * bounding_box(subject.cloud->points).diagonal();
+    report.points = measure_point_distances(
+        subject.cloud->points, is_curved ? flat_pieces(*subject.volume_mesh, tolerance).mesh : *subject.surface,
+        subject.outliers ? *subject.outliers : std::vector<Vec3>{});
+  }
   if (subject.volume_mesh != nullptr) report.volume_mesh = measure_tetrahedra(*subject.volume_mesh);
   Json json = scan2fea::to_json(report);
   if (flags.unit) json["unit"] = *flags.unit;

@@ -132,13 +132,56 @@ SurfaceMesh boundary_surface(const TetMesh& mesh) {
   return surface;
 }
 
-double total_volume(const TetMesh& mesh) {
-  double six_volumes = 0;
-  for (const Tetrahedron& t : mesh.tetrahedra) {
-    const Vec3& a = mesh.nodes[t[0]];
-    six_volumes += (mesh.nodes[t[1]] - a).cross(mesh.nodes[t[2]] - a).dot(mesh.nodes[t[3]] - a);
+CurvedTetrahedron curved_tetrahedron(const TetMesh& mesh, std::size_t tetrahedron) {
+  CurvedTetrahedron nodes;
+  for (std::size_t i = 0; i < 4; ++i) nodes[i] = mesh.nodes[mesh.tetrahedra[tetrahedron][i]];
+  for (std::size_t e = 0; e < 6; ++e) {
+    const auto& [i, j] = tetrahedron_edges[e];
+    nodes[4 + e] = mesh.order() == 2
+                       ? mesh.nodes[mesh.mid_edge_nodes[tetrahedron][e]]
+                       : Vec3(0.5 * (nodes[static_cast<std::size_t>(i)] + nodes[static_cast<std::size_t>(j)]));
   }
-  return six_volumes / 6;
+  return nodes;
+}
+
+std::array<Vec3, 3> derivatives_at(const CurvedTetrahedron& nodes, const std::array<double, 4>& b) {
+  // By each of the four, taken as independent; from the first corner, so that far-off coordinates cost no digits.
+  std::array<Vec3, 4> d;
+  for (std::size_t i = 0; i < 4; ++i) d[i] = (4 * b[i] - 1) * (nodes[i] - nodes[0]);
+  for (std::size_t e = 0; e < 6; ++e) {
+    const auto i = static_cast<std::size_t>(tetrahedron_edges[e][0]),
+               j = static_cast<std::size_t>(tetrahedron_edges[e][1]);
+    const Vec3 node = nodes[4 + e] - nodes[0];
+    d[i] += 4 * b[j] * node;
+    d[j] += 4 * b[i] * node;
+  }
+  return {d[1] - d[0], d[2] - d[0], d[3] - d[0]};
+}
+
+double volume_of(const CurvedTetrahedron& nodes) {
+  // The Jacobian is a cubic polynomial, which the rule of five points integrates exactly.
+  const auto jacobian = [&](const std::array<double, 4>& b) {
+    const auto [u, v, w] = derivatives_at(nodes, b);
+    return u.cross(v).dot(w);
+  };
+  double sum = -0.8 * jacobian({0.25, 0.25, 0.25, 0.25});
+  for (std::size_t k = 0; k < 4; ++k) {
+    std::array<double, 4> b{1.0 / 6, 1.0 / 6, 1.0 / 6, 1.0 / 6};
+    b[k] = 0.5;
+    sum += 0.45 * jacobian(b);
+  }
+  return sum / 6;
+}
+
+double total_volume(const TetMesh& mesh) {
+  double volume = 0;
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+    const auto& [a, b, c, d] = mesh.tetrahedra[t];
+    const Vec3& p = mesh.nodes[a];
+    volume += mesh.order() == 2 ? volume_of(curved_tetrahedron(mesh, t))
+                                : (mesh.nodes[b] - p).cross(mesh.nodes[c] - p).dot(mesh.nodes[d] - p) / 6;
+  }
+  return volume;
 }
 
 }  // namespace scan2fea

@@ -78,7 +78,18 @@ std::vector<BoundaryFace> find_boundary(const std::vector<Tetrahedron>& tetrahed
 // Corner nodes and triangles of the boundary; vertices are renumbered in the order of the nodes.
 SurfaceMesh boundary_surface(const TetMesh& mesh);
 
-// Sum of the volumes of the straight-edged tetrahedra.
+// An element of any order: corners, then nodes in the middle of the edges in the order of `tetrahedron_edges`.
+using CurvedTetrahedron = std::array<Vec3, 10>;
+
+CurvedTetrahedron curved_tetrahedron(const TetMesh& mesh, std::size_t tetrahedron);
+
+// Of the position by the second, third and fourth barycentric coordinate, at the point with these four.
+std::array<Vec3, 3> derivatives_at(const CurvedTetrahedron& nodes, const std::array<double, 4>& barycentric);
+
+// Exact; negative where it is inside out.
+double volume_of(const CurvedTetrahedron& nodes);
+
+// Sum over the elements as they are: of second order curved.
 double total_volume(const TetMesh& mesh);
 
 }  // namespace scan2fea

@@ -64,30 +64,6 @@ double least_jacobian(const TetMesh& mesh, std::size_t t) {
   return min_jacobian_bound(curved_tetrahedron(mesh, t)).lower / straight;
 }
 
-// Jacobian of a second-order element at barycentric coordinates b: by the derivatives of its shape functions.
-double jacobian_at(const CurvedTetrahedron& x, const std::array<double, 4>& b) {
-  // Derivatives of the position by each barycentric coordinate, the four taken as independent.
-  std::array<Vec3, 4> d;
-  for (std::size_t i = 0; i < 4; ++i) d[i] = (4 * b[i] - 1) * x[i];
-  for (std::size_t e = 0; e < 6; ++e) {
-    const auto [i, j] = tetrahedron_edges[e];
-    d[static_cast<std::size_t>(i)] += 4 * b[static_cast<std::size_t>(j)] * x[4 + e];
-    d[static_cast<std::size_t>(j)] += 4 * b[static_cast<std::size_t>(i)] * x[4 + e];
-  }
-  return (d[1] - d[0]).cross(d[2] - d[0]).dot(d[3] - d[0]);
-}
-
-// The Jacobian is a cubic polynomial, which the rule of five points integrates exactly.
-double volume_of(const CurvedTetrahedron& x) {
-  double sum = -0.8 * jacobian_at(x, {0.25, 0.25, 0.25, 0.25});
-  for (std::size_t k = 0; k < 4; ++k) {
-    std::array<double, 4> b{1.0 / 6, 1.0 / 6, 1.0 / 6, 1.0 / 6};
-    b[k] = 0.5;
-    sum += 0.45 * jacobian_at(x, b);
-  }
-  return sum / 6;
-}
-
 }  // namespace
 
 void add_mid_edge_nodes(TetMesh& mesh) {
@@ -163,7 +139,7 @@ CurveResult curve_mid_edge_nodes(TetMesh& mesh, const TriangleTree& scan, const 
       result.largest_displacement =
           std::max(result.largest_displacement, (mesh.nodes[edge.node] - edge.straight).norm());
     }
-  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) result.volume += volume_of(curved_tetrahedron(mesh, t));
+  result.volume = total_volume(mesh);
   return result;
 }
 

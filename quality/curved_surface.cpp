@@ -1,0 +1,78 @@
+#include "quality/curved_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace scan2fea {
+namespace {
+
+Vec3 point_at(const std::array<Vec3, 6>& x, double u, double v) {
+  const double w = 1 - u - v;
+  return w * (2 * w - 1) * x[0] + u * (2 * u - 1) * x[1] + v * (2 * v - 1) * x[2] +
+         4 * (w * u * x[3] + u * v * x[4] + v * w * x[5]);
+}
+
+// The curve lies at the sum of 4 a b (m - (p + q) / 2) over the edges, with a and b its coordinates, from the flat
+// triangle: at most four ninths of the sum of these bends (in the centre), or the largest of them (on its edge). Cut
+// into n along each edge, it bends n^2 times less.
+int cuts_for(const std::array<Vec3, 6>& x, double tolerance) {
+  double sum = 0, largest = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double bend = (x[3 + k] - 0.5 * (x[k] + x[(k + 1) % 3])).norm();
+    sum += bend;
+    largest = std::max(largest, bend);
+  }
+  const double farthest = std::max(largest, 4.0 / 3 * std::min(largest, sum / 3));
+  if (!(farthest > tolerance)) return 1;
+  const double cuts = std::ceil(std::sqrt(farthest / tolerance));
+  return static_cast<int>(std::clamp(cuts, 1.0, static_cast<double>(most_cuts)));
+}
+
+std::array<Vec3, 6> nodes_of(const FlatPieces& pieces, std::uint32_t curved) {
+  std::array<Vec3, 6> x;
+  for (std::size_t k = 0; k < 6; ++k) x[k] = pieces.nodes[pieces.curved[curved].nodes[k]];
+  return x;
+}
+
+void add_pieces(FlatPieces& pieces, std::uint32_t curved, double tolerance) {
+  const std::array<Vec3, 6> x = nodes_of(pieces, curved);
+  const int n = cuts_for(x, tolerance);
+  const auto first = static_cast<std::uint32_t>(pieces.mesh.vertices.size());
+  const auto place = [&](int i, int j) -> Eigen::Vector2d { return Eigen::Vector2d(i, j) / n; };
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i + j <= n; ++i) pieces.mesh.vertices.push_back(point_at(x, place(i, j)[0], place(i, j)[1]));
+  const auto vertex = [&](int i, int j) {  // rows of n + 1, n, ... vertices
+    return first + static_cast<std::uint32_t>(j * (n + 1) - j * (j - 1) / 2 + i);
+  };
+  const auto add = [&](std::array<std::array<int, 2>, 3> c) {
+    pieces.mesh.triangles.push_back({vertex(c[0][0], c[0][1]), vertex(c[1][0], c[1][1]), vertex(c[2][0], c[2][1])});
+    pieces.places.push_back({place(c[0][0], c[0][1]), place(c[1][0], c[1][1]), place(c[2][0], c[2][1])});
+    pieces.of_piece.push_back(curved);
+  };
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i + j < n; ++i) {
+      add({{{i, j}, {i + 1, j}, {i, j + 1}}});
+      if (i + j + 1 < n) add({{{i + 1, j}, {i + 1, j + 1}, {i, j + 1}}});
+    }
+}
+
+}  // namespace
+
+Vec3 FlatPieces::on_curve(std::uint32_t piece, double first, double second) const {
+  const auto& [a, b, c] = places[piece];
+  const Eigen::Vector2d at = first * a + second * b + (1 - first - second) * c;
+  return point_at(nodes_of(*this, of_piece[piece]), at[0], at[1]);
+}
+
+FlatPieces flat_pieces(const TetMesh& mesh, double tolerance) {
+  FlatPieces pieces;
+  pieces.nodes = mesh.nodes;
+  for (const BoundaryFace f : mesh.boundary) {
+    const Triangle corners = boundary_triangle(mesh, f), middles = boundary_mid_edge_nodes(mesh, f);
+    pieces.curved.push_back({{corners[0], corners[1], corners[2], middles[0], middles[1], middles[2]}});
+    add_pieces(pieces, static_cast<std::uint32_t>(pieces.curved.size() - 1), tolerance);
+  }
+  return pieces;
+}
+
+}  // namespace scan2fea

@@ -1,0 +1,39 @@
+// The boundary of a mesh of second order, whose triangles are curved, as flat triangles that lie near it.
+#pragma once
+
+#include "preproc/mesh/tet_mesh.hpp"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace scan2fea {
+
+// Of six nodes: corners, then the middles of 12, 23 and 31.
+struct CurvedTriangle {
+  std::array<std::uint32_t, 6> nodes;
+};
+
+// Each curved triangle is cut into n^2 flat ones, whose corners lie on it. They are not joined to one another: where
+// neighbours are cut differently, there are gaps of less than the tolerance.
+struct FlatPieces {
+  SurfaceMesh mesh;
+  std::vector<CurvedTriangle> curved;                  // in the order of TetMesh::boundary
+  std::vector<Vec3> nodes;                             // of the whole mesh
+  std::vector<std::uint32_t> of_piece;                 // per flat triangle the curved one
+  std::vector<std::array<Eigen::Vector2d, 3>> places;  // and its corners there: second and third coordinate
+
+  // The point of the curved triangle whose place in the flat one has these barycentric coordinates.
+  Vec3 on_curve(std::uint32_t piece, double first, double second) const;
+};
+
+// Precondition: the mesh is of second order. No point of a flat triangle is farther than `tolerance`, model units, from
+// the curved one, unless that takes more than `most_cuts` along an edge; nor the other way round. O(n + pieces).
+inline constexpr int most_cuts = 16;
+FlatPieces flat_pieces(const TetMesh& mesh, double tolerance);
+
+// What is near enough for figures of a deviation: a hundredth of the distance at which meshes are made by default, of
+// the diagonal of what they are compared with.
+inline constexpr double flat_enough_of_diagonal = 2e-5;
+
+}  // namespace scan2fea
