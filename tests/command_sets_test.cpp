@@ -1,4 +1,5 @@
 // Sets from the command line into files: the faces meant, all of their nodes and no others.
+#include "export/formats.hpp"
 #include "preproc/mesh/write_surface.hpp"
 #include "tests/analytic_meshes.hpp"
 #include "tests/machined_part.hpp"
@@ -148,6 +149,64 @@ TEST_F(CommandSets, FacesAreListed) {
   EXPECT_NEAR(report["faces"][2]["radius"].get<double>(), 5, 0.02);
   EXPECT_TRUE(std::filesystem::exists(path("pin.vtu")));
   EXPECT_THAT(run_command("faces '" + path("pin.ply") + "'").standard_output, HasSubstr("FACE_3    cylinder"));
+}
+
+TEST_F(CommandSets, FacesOfEveryFormatAreListed) {
+  const SurfaceMesh box = analytic::box({3, 4, 5}, 1);
+  NamedSurface named{.mesh = box, .node_sets = {}, .face_sets = {named_set("GRIP", {0, 1, 2})}, .unit = "mm"};
+  const auto list = [&](const std::string& file) {
+    const auto result = run_command("faces '" + path(file) + "' --quiet --json -");
+    EXPECT_EQ(result.exit_code, 0) << file << result.standard_error;
+    return nlohmann::json::parse(result.standard_output);
+  };
+  for (const std::string file :
+       {"box.vtp", "box.vtu", "box.msh", "box.inp", "box.bdf", "box.unv", "box.med", "box.obj"}) {
+    write_surface(named, path(file));
+    const nlohmann::json report = list(file);
+    ASSERT_EQ(report["faces"].size(), 6U) << file;
+    EXPECT_NEAR(report["faces"][0]["area"].get<double>(), 20, 1e-9) << file;
+    EXPECT_EQ(report["unit"], "mm") << file;
+    ASSERT_EQ(report["sets"].size(), 1U) << file;
+    EXPECT_EQ(report["sets"][0]["name"], "GRIP") << file;
+    EXPECT_EQ(report["sets"][0]["triangles"], 3) << file;
+  }
+  write_surface(box, path("box.stl"));
+  ASSERT_EQ(std::system(("gzip '" + path("box.stl") + "'").c_str()), 0);
+  EXPECT_EQ(list("box.stl.gz")["faces"].size(), 6U);
+  // The boundary of a mesh of tetrahedra.
+  ASSERT_EQ(run_command("run '" + path("box.obj") + "' -o '" + path("solid.vtu") + "' --quiet --set 'end=plane(z)'")
+                .exit_code,
+            0);
+  const nlohmann::json solid = list("solid.vtu");
+  EXPECT_EQ(solid["faces"].size(), 6U);
+  EXPECT_EQ(solid["sets"].size(), 2U) << solid["sets"];
+  EXPECT_THAT(run_command("faces '" + path("solid.vtu") + "'").standard_output, HasSubstr("end       set"));
+}
+
+// A 3MF is a zip file of XML.
+TEST_F(CommandSets, FacesOf3mfAreListed) {
+  const SurfaceMesh box = analytic::box({3, 4, 5}, 1);
+  std::filesystem::create_directories(path("3D"));
+  std::ofstream model(path("3D/3dmodel.model"));
+  model << "<?xml version=\"1.0\"?><model unit=\"inch\" "
+           "xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\"><resources><object id=\"1\" "
+           "type=\"model\"><mesh><vertices>";
+  for (const Vec3& p : box.vertices)
+    model << "<vertex x=\"" << p.x() << "\" y=\"" << p.y() << "\" z=\"" << p.z() << "\"/>";
+  model << "</vertices><triangles>";
+  for (const Triangle& t : box.triangles)
+    model << "<triangle v1=\"" << t[0] << "\" v2=\"" << t[1] << "\" v3=\"" << t[2] << "\"/>";
+  model << "</triangles></mesh></object></resources><build><item objectid=\"1\"/></build></model>";
+  model.close();
+  const std::string zip = "import zipfile; z = zipfile.ZipFile('" + path("box.3mf") +
+                          "', 'w', zipfile.ZIP_DEFLATED); z.write('" + path("3D/3dmodel.model") +
+                          "', '3D/3dmodel.model')";
+  ASSERT_EQ(std::system(("/usr/bin/python3 -c \"" + zip + "\"").c_str()), 0);
+  const auto result = run_command("faces '" + path("box.3mf") + "' --quiet --json -");
+  ASSERT_EQ(result.exit_code, 0) << result.standard_error;
+  const nlohmann::json report = nlohmann::json::parse(result.standard_output);
+  EXPECT_EQ(report["faces"].size(), 6U);
+  EXPECT_EQ(report["unit"], "in");
 }
 
 TEST_F(CommandSets, IdealisedScansArePlaneAndRound) {

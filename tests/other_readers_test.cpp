@@ -56,6 +56,19 @@ INSTANTIATE_TEST_SUITE_P(
                         Case{"dolfinx", "box.msh", both(tags, {{"area_of_FIXED", 2}})}),
         testing::Values(1, 2)));
 
+// Debian's own interpreter, which has Debian's packages; another one may come first on the path. The exit status, and
+// what is printed.
+std::pair<int, std::string> read_by(const std::string& script, const std::string& library,
+                                    const std::filesystem::path& file) {
+  const std::string command =
+      "/usr/bin/python3 '" SCAN2FEA_TESTS_FOLDER "/" + script + "' " + library + " '" + file.string() + "' 2>&1";
+  FILE* pipe = popen(command.c_str(), "r");
+  if (pipe == nullptr) return {127, ""};
+  std::string printed;
+  for (int byte; (byte = std::fgetc(pipe)) != EOF;) printed += static_cast<char>(byte);
+  return {WEXITSTATUS(pclose(pipe)), printed};
+}
+
 TEST_P(OtherReaders, FindTheSameMesh) {
   const auto& [c, order] = GetParam();
   const TetMesh mesh = analytic::part_with_sets(order);
@@ -65,14 +78,7 @@ TEST_P(OtherReaders, FindTheSameMesh) {
   options.msh_version = c.msh_version;
   EXPECT_EQ(write_volume(mesh, folder / c.file, options), Notes{});
 
-  // Debian's own interpreter, which has Debian's packages; another one may come first on the path.
-  const std::string command = "/usr/bin/python3 '" SCAN2FEA_TESTS_FOLDER "/read_volume_mesh.py' " + c.library + " '" +
-                              (folder / c.file).string() + "' 2>&1";
-  FILE* pipe = popen(command.c_str(), "r");
-  ASSERT_NE(pipe, nullptr);
-  std::string printed;
-  for (int byte; (byte = std::fgetc(pipe)) != EOF;) printed += static_cast<char>(byte);
-  const int status = WEXITSTATUS(pclose(pipe));
+  const auto [status, printed] = read_by("read_volume_mesh.py", c.library, folder / c.file);
   if (status == 77 || status == 127) GTEST_SKIP() << c.library << " is not installed (see examples/setup)";
   ASSERT_EQ(status, 0) << printed;
 
@@ -96,6 +102,41 @@ TEST_P(OtherReaders, FindTheSameMesh) {
     ASSERT_TRUE(sets.contains(name)) << name << " in:\n" << printed;
     EXPECT_NEAR(sets[name], size, 1e-12) << name;
   }
+}
+
+class OtherReadersOfSurfaces : public testing::TestWithParam<std::pair<std::string, std::string>> {};
+INSTANTIATE_TEST_SUITE_P(LibraryAndFile, OtherReadersOfSurfaces,
+                         testing::Values(std::pair("vtk", "box.vtp"), std::pair("vtk", "box.vtu"),
+                                         std::pair("meshio", "box.vtu"), std::pair("meshio", "box.inp")));
+
+TEST_P(OtherReadersOfSurfaces, FindTheSameSurface) {
+  const auto& [library, file] = GetParam();
+  const TemporaryFolder folder;
+  Notes notes;
+  TetMesh solid = analytic::part_with_sets(1);
+  solid.element_sets.clear();
+  const NamedSurface surface = named_boundary(solid, notes);
+  EXPECT_EQ(write_surface(surface, folder / file), Notes{});
+  const auto [status, printed] = read_by("read_surface_mesh.py", library, folder / file);
+  if (status == 77 || status == 127) GTEST_SKIP() << library << " is not installed (see examples/setup)";
+  ASSERT_EQ(status, 0) << printed;
+  std::size_t points = 0, triangles = 0;
+  double area = 0, volume = 0;
+  std::map<std::string, double> sets;
+  std::istringstream lines(printed);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string first, name;
+    words >> first;
+    if (first == "surface") words >> points >> triangles >> area >> volume;
+    if (first == "set") words >> name >> sets[name];
+  }
+  EXPECT_EQ(points, surface.mesh.vertices.size()) << printed;
+  EXPECT_EQ(triangles, surface.mesh.triangles.size());
+  EXPECT_NEAR(area, 2 * (4 * 2 + 4 * 1 + 2 * 1), 1e-12);
+  EXPECT_NEAR(volume, 8, 1e-12);
+  for (const NamedSet& set : surface.face_sets) EXPECT_EQ(sets[set.name], set.members.size()) << set.name << printed;
+  for (const NamedSet& set : surface.node_sets) EXPECT_EQ(sets[set.name], set.members.size()) << set.name << printed;
 }
 
 }  // namespace

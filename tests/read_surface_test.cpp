@@ -252,6 +252,32 @@ TEST_F(ReadPly, ReadsATetrahedron) {
 }
 
 // The tetrahedron with properties of all types, in an odd order, among elements that mean nothing here.
+// Two squares and a triangle, the first square with the label 7.
+std::string labelled_ply(const std::string& property, const std::string& labels) {
+  std::istringstream values(labels);
+  std::string a, b, c;
+  values >> a >> b >> c;
+  return "ply\nformat ascii 1.0\nelement vertex 7\nproperty float x\nproperty float y\nproperty float z\n"
+         "element face 3\nproperty " +
+         property +
+         "\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n2 0 0\n2 1 0\n3 0 0\n" + a +
+         " 4 0 1 2 3\n" + b + " 4 1 4 5 2\n" + c + " 3 4 6 5\n";
+}
+
+TEST_F(ReadSurface, PlyLabelsAreSets) {
+  const auto sets = [&](const std::string& text) {
+    return read_named_surface(write_text(folder_ / "part.ply", text)).face_sets;
+  };
+  const std::vector<NamedSet> parts = sets(labelled_ply("int label", "7 -1 7"));
+  ASSERT_EQ(parts.size(), 2U);
+  EXPECT_EQ(parts[0], named_set("label_-1", {2, 3}));
+  EXPECT_EQ(parts[1], named_set("label_7", {0, 1, 4}));
+  EXPECT_EQ(sets(labelled_ply("uchar object_id", "0 1 2")).size(), 3U);
+  EXPECT_TRUE(sets(labelled_ply("int label", "1 1 1")).empty()) << "one label for all tells nothing";
+  EXPECT_TRUE(sets(labelled_ply("float label", "1 2 3")).empty()) << "no whole numbers";
+  EXPECT_TRUE(sets(labelled_ply("int quality", "1 2 3")).empty());
+}
+
 std::string elaborate_ply(std::endian order, std::string_view line_break) {
   std::string text = replaced(
       std::string("ply\nformat ") + (order == std::endian::big ? "binary_big_endian" : "binary_little_endian") +

@@ -1,11 +1,14 @@
+#include "export/formats.hpp"
+#include "export/units.hpp"
 #include "preproc/command/face_files.hpp"
 #include "preproc/command/figures.hpp"
 #include "preproc/command/sub_commands.hpp"
 #include "preproc/mesh/error.hpp"
-#include "preproc/mesh/read_surface.hpp"
 #include "preproc/surface/repair/repair.hpp"
 
 #include <nlohmann/json.hpp>
+
+#include <cstdio>
 
 namespace scan2fea::command {
 namespace {
@@ -17,7 +20,30 @@ struct FacesFlags {
   SimplifyOptions simplify;  // for its features
 };
 
-int list_faces(const FacesFlags& flags) {
+// A surface of any format, or the boundary of a volume mesh.
+NamedSurface read_part(CommonFlags& flags) {
+  MeshFile read = read_mesh(flags.input);
+  NamedSurface surface = read.is_volume() ? named_boundary(std::get<TetMesh>(read.mesh), read.warnings)
+                                          : std::get<NamedSurface>(std::move(read.mesh));
+  for (const std::string& warning : read.warnings)
+    std::fprintf(stderr, "scan2fea: warning: %s: %s\n", flags.input.c_str(), warning.c_str());
+  const std::string unit = settled_unit(surface.unit, flags.unit, flags.input.string());
+  if (!unit.empty()) flags.unit = unit;
+  return surface;
+}
+
+// Names that the file has, which --set takes as well as those of the faces.
+Json given_sets(const NamedSurface& surface) {
+  Json list = Json::array();
+  for (const NamedSet& set : surface.face_sets) {
+    double area = 0;
+    for (const std::uint32_t f : set.members) area += area_vector(surface.mesh, surface.mesh.triangles[f]).norm() / 2;
+    list.push_back({{"name", set.name}, {"kind", "faces"}, {"area", area}, {"triangles", set.members.size()}});
+  }
+  return list;
+}
+
+int list_faces(FacesFlags flags) {
   if (flags.output && !is_face_file(*flags.output))
     throw WrongUsage({.what = "unknown format of the output",
                       .where = flags.output->string(),
@@ -28,17 +54,26 @@ int list_faces(const FacesFlags& flags) {
   if (flags.output) files.push_back({*flags.output});
   require_writable(files, inputs_of(flags.common), flags.common.force);
   ProgressDisplay display(flags.common.quiet);
-  SurfaceMesh mesh = read_surface(flags.common.input);
+  NamedSurface surface = read_part(flags.common);
+  SurfaceMesh& mesh = surface.mesh;
   display.line(describe_input(mesh, flags.common));
+  const Json given = given_sets(surface);
   repair(mesh, flags.repair, display.progress());
   const SurfaceFaces faces = find_faces(mesh, flags.simplify.features, display.progress());
 
   StagedOutputs outputs;
-  const std::string table = face_table(faces);
+  std::string table = face_table(faces);
+  for (const Json& set : given) {
+    char line[160];
+    std::snprintf(line, sizeof line, "%-9.80s set       area %-10.6g of the file\n",
+                  set["name"].get_ref<const std::string&>().c_str(), set["area"].get<double>());
+    table += line;
+  }
   Json report{{"schema", "scan2fea/1"}, {"input", flags.common.input.string()}};
   if (flags.common.unit) report["unit"] = *flags.common.unit;
   report["noise"] = faces.noise;
   report["faces"] = face_list(faces);
+  report["sets"] = given;
   if (flags.common.json) outputs.add_json(report, *flags.common.json);
   if (flags.common.report) outputs.add_report(report, table, *flags.common.report);
   if (flags.output) outputs.add(*flags.output, face_file(mesh, faces, *flags.output));

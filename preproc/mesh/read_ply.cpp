@@ -6,8 +6,11 @@
 #include "preproc/mesh/text_scanner.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <string_view>
 #include <utility>
 
 namespace scan2fea {
@@ -139,6 +142,44 @@ bool is_vertex_list(const PlyProperty& property) {
   return property.count_type && (property.name == "vertex_indices" || property.name == "vertex_index");
 }
 
+// By which programs number the parts of a scan; and the number of parts above which they are taken for something else.
+bool is_label(const PlyProperty& property) {
+  constexpr std::array<std::string_view, 9> names{"label",    "object_id", "segment",        "segment_id", "group",
+                                                  "group_id", "region",    "material_index", "category_id"};
+  return !property.count_type && is_integer(property.type) && std::ranges::find(names, property.name) != names.end();
+}
+constexpr std::size_t most_labels = 1000;
+
+// The triangles of each value of each label.
+class Labels {
+ public:
+  void add(const std::string& property, std::int64_t value) { of_row_.emplace_back(property, value); }
+  // The triangles that the row has made.
+  void end_row(std::size_t begin, std::size_t end) {
+    for (const auto& [property, value] : of_row_) {
+      std::map<std::int64_t, std::vector<std::uint32_t>>& parts = parts_[property];
+      if (parts.size() > most_labels) continue;
+      std::vector<std::uint32_t>& members = parts[value];
+      for (std::size_t t = begin; t < end; ++t) members.push_back(static_cast<std::uint32_t>(t));
+    }
+    of_row_.clear();
+  }
+  // One label for all parts nothing.
+  std::vector<NamedSet> take() {
+    std::vector<NamedSet> sets;
+    for (auto& [property, parts] : parts_) {
+      if (parts.size() < 2 || parts.size() > most_labels) continue;
+      for (auto& [value, members] : parts)
+        if (!members.empty()) sets.push_back(named_set(property + "_" + std::to_string(value), std::move(members)));
+    }
+    return sets;
+  }
+
+ private:
+  std::vector<std::pair<std::string, std::int64_t>> of_row_;
+  std::map<std::string, std::map<std::int64_t, std::vector<std::uint32_t>>> parts_;
+};
+
 template <class Body>
 class BodyReader {
  public:
@@ -162,7 +203,7 @@ class BodyReader {
     return {.points = std::move(mesh_.vertices), .normals = std::move(normals_), .scanners = {}};
   }
 
-  SurfaceMesh run() {
+  SurfaceMesh run(std::vector<NamedSet>* sets) {
     const PlyElement& vertex = vertex_element();
     std::vector<std::pair<const PlyElement*, Body>> faces_before_vertices;
     bool has_vertices = false;
@@ -182,6 +223,7 @@ class BodyReader {
       body_ = start;
       read_faces(*element);
     }
+    if (sets != nullptr) *sets = labels_.take();
     return std::move(mesh_);
   }
 
@@ -264,15 +306,22 @@ class BodyReader {
     for (const PlyProperty& property : element.properties)
       if (is_vertex_list(property) && !is_integer(property.type))
         file_.fail_at_line(element.declared_at, "the vertex indices are not whole numbers");
-    for (std::uint64_t row = 0; row < element.count; ++row)
+    for (std::uint64_t row = 0; row < element.count; ++row) {
+      const std::size_t before = mesh_.triangles.size();
       for (const PlyProperty& property : element.properties) {
-        if (!is_vertex_list(property))
+        if (is_label(property)) {
+          body_.position();
+          labels_.add(property.name, body_.integer(property.type));
+        } else if (!is_vertex_list(property)) {
           skip_property(property);
-        else if (strips)
+        } else if (strips) {
           read_strips(property);
-        else
+        } else {
           read_polygon(property);
+        }
       }
+      labels_.end_row(before, mesh_.triangles.size());
+    }
   }
 
   void read_polygon(const PlyProperty& property) {
@@ -325,6 +374,7 @@ class BodyReader {
   bool keeps_normals_ = false;
   std::vector<Vec3> normals_;
   std::vector<std::uint32_t> corners_;
+  Labels labels_;
 };
 
 }  // namespace
@@ -340,10 +390,10 @@ PointCloud read_ply_points(const InputFile& file) {
   return BodyReader<BinaryBody>(file, header).points();
 }
 
-SurfaceMesh read_ply(const InputFile& file) {
+SurfaceMesh read_ply(const InputFile& file, std::vector<NamedSet>* sets) {
   const PlyHeader header = read_ply_header(file);
-  if (header.format == PlyFormat::ascii) return BodyReader<TextBody>(file, header).run();
-  return BodyReader<BinaryBody>(file, header).run();
+  if (header.format == PlyFormat::ascii) return BodyReader<TextBody>(file, header).run(sets);
+  return BodyReader<BinaryBody>(file, header).run(sets);
 }
 
 }  // namespace scan2fea

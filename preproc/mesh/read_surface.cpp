@@ -10,13 +10,13 @@
 namespace scan2fea {
 
 SurfaceMesh read_faces_and_vertices(const InputFile& file, std::vector<NamedSet>* sets) {
-  if (is_ply(file)) return read_ply(file);
+  if (is_ply(file)) return read_ply(file, sets);
   if (is_off(file)) return read_off(file);
   if (is_binary_stl(file)) return read_stl(file, sets);
   const std::string extension = extension_of_content(file.path());
   if (extension == ".stl") return read_stl(file, sets);
   if (extension == ".obj") return read_obj(file, sets);
-  if (extension == ".ply") return read_ply(file);
+  if (extension == ".ply") return read_ply(file, sets);
   if (extension == ".off") return read_off(file);
   file.fail(
       "neither the content nor the extension tells a surface format", extension, ".stl, .obj, .ply or .off",

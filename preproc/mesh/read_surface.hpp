@@ -16,7 +16,7 @@ namespace scan2fea {
 // O(n) for n bytes; memory is bounded by a small multiple of the file's size, whatever its header says.
 SurfaceMesh read_surface(const std::filesystem::path& file);
 
-// With the names in it, of faces (ASCII STL: solids; OBJ: groups, objects and materials), and the unit of a comment
+// With the names in it, of faces (ASCII STL: solids; OBJ: groups, objects and materials; PLY: labels), and the unit of a comment
 // that `write_surface` wrote.
 NamedSurface read_named_surface(const std::filesystem::path& file);
 

@@ -18,8 +18,10 @@ SurfaceMesh read_stl(const InputFile& file, std::vector<NamedSet>* sets = nullpt
 SurfaceMesh read_obj(const InputFile& file, std::vector<NamedSet>* sets = nullptr);
 
 // Stanford PLY 1.0: x, y, z of `vertex`, the list of `face` and of `tristrips`, among any other properties and
-// elements.
-SurfaceMesh read_ply(const InputFile& file);
+// elements. `sets`, where given: the triangles of each value of the whole numbers that faces have as label, object_id,
+// segment, segment_id, group, group_id, region, material_index or category_id: "label_3". One value, or more than 1000,
+// make no sets.
+SurfaceMesh read_ply(const InputFile& file, std::vector<NamedSet>* sets = nullptr);
 
 // Geomview OFF, also with normals, colours or texture (NOFF, COFF, STOFF), which are passed over.
 SurfaceMesh read_off(const InputFile& file);
