@@ -74,20 +74,11 @@ void count_shared_nodes(const TetMesh& mesh, DeckParts& parts) {
   parts.shared_nodes = shared.size();
 }
 
-// In the order of the sets, each that does not overlap with those before.
 void find_bodies(const TetMesh& mesh, const WrittenNames& names, DeckParts& parts) {
-  std::vector<bool> taken(mesh.tetrahedra.size(), false);
-  for (std::size_t s = 0; s < mesh.element_sets.size(); ++s) {
-    const auto& members = mesh.element_sets[s].members;
-    if (members.empty()) continue;
-    const bool overlaps = std::any_of(members.begin(), members.end(), [&](std::uint32_t t) { return taken[t]; });
-    (overlaps ? parts.no_bodies : parts.bodies).push_back(names.elements[s]);
-    if (overlaps) continue;
-    for (const std::uint32_t t : members) taken[t] = true;
-  }
-  if (parts.bodies.empty()) return;
-  for (std::uint32_t t = 0; t < taken.size(); ++t)
-    if (!taken[t]) parts.other.push_back(t);
+  DisjointSets bodies = disjoint_sets(mesh.element_sets, mesh.tetrahedra.size());
+  for (const std::size_t s : bodies.disjoint) parts.bodies.push_back(names.elements[s]);
+  for (const std::size_t s : bodies.overlapping) parts.no_bodies.push_back(names.elements[s]);
+  if (!parts.bodies.empty()) parts.other = std::move(bodies.rest);
 }
 
 WrittenNames names_in(const TetMesh& mesh, const std::string& extension) {

@@ -4,6 +4,7 @@
 #include "export/bdf.hpp"
 #include "export/cdb.hpp"
 #include "export/elmer.hpp"
+#include "export/exodus.hpp"
 #include "export/inp.hpp"
 #include "export/med.hpp"
 #include "export/msh.hpp"
@@ -48,6 +49,8 @@ constexpr auto formats = std::to_array<FileFormat>({
     {".mail", "Code_Aster", all, {}, write_mail, nullptr, read_mail},
     {".cdb", "ANSYS", all, {}, write_cdb, nullptr, read_cdb},
     {".header", "Elmer", of_elmer, {}, write_elmer, nullptr, read_elmer},
+    {".exo", "Exodus II", all, sets_and_unit, write_exodus, write_exodus, read_exodus},
+    {".e", "Exodus II", all, sets_and_unit, write_exodus, write_exodus, read_exodus},
     {".su2", "SU2", of_su2, {}, write_su2, nullptr, read_su2},
     {".vtp", "VTK", {}, sets_and_unit, nullptr, write_vtp, read_vtk_xml},
     {".vtk", "VTK, legacy", Holdings{.second_order = true}, Holdings{}, nullptr, nullptr, read_vtk_legacy},

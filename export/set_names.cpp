@@ -89,6 +89,22 @@ SetParts set_parts(std::span<const NamedSet> sets, std::size_t members) {
   return parts;
 }
 
+DisjointSets disjoint_sets(std::span<const NamedSet> sets, std::size_t members) {
+  DisjointSets found;
+  std::vector<bool> taken(members, false);
+  for (std::size_t s = 0; s < sets.size(); ++s) {
+    const std::vector<std::uint32_t>& own = sets[s].members;
+    if (own.empty()) continue;
+    const bool overlaps = std::any_of(own.begin(), own.end(), [&](std::uint32_t m) { return taken[m]; });
+    (overlaps ? found.overlapping : found.disjoint).push_back(s);
+    if (overlaps) continue;
+    for (const std::uint32_t m : own) taken[m] = true;
+  }
+  for (std::uint32_t m = 0; m < members; ++m)
+    if (!taken[m]) found.rest.push_back(m);
+  return found;
+}
+
 std::string part_name(const SetParts& parts, std::size_t part, std::span<const std::string> names) {
   std::string name;
   for (const std::uint32_t s : parts.of[part]) name += (name.empty() ? "" : std::string(1, part_name_joint)) + names[s];

@@ -43,6 +43,14 @@ struct SetParts {
 };
 SetParts set_parts(std::span<const NamedSet> sets, std::size_t members);
 
+// Sets that share no member, in their order, each that shares none with those before; the others; and the members of
+// none of the first.
+struct DisjointSets {
+  std::vector<std::size_t> disjoint, overlapping;  // sets without members are neither
+  std::vector<std::uint32_t> rest;
+};
+DisjointSets disjoint_sets(std::span<const NamedSet> sets, std::size_t members);
+
 // "A+B" for a part that is in both, as formats without another way to say so have it.
 std::string part_name(const SetParts& parts, std::size_t part, std::span<const std::string> names);
 inline constexpr char part_name_joint = '+';

@@ -34,6 +34,21 @@ std::vector<NamedSelection> with_given(std::vector<NamedSelection> selections, c
   return selections;
 }
 
+// Of all faces but a single one. They add no lines: creases are lines of the mesh already, and where two faces join
+// without a crease the sets end between triangles, each of which goes to the face that most of it lies on.
+void name_faces(const SelectedScan& selected, const SimplifyResult& simplified, PipelineResult& result) {
+  const std::vector<SurfaceFace>& faces = selected.faces.list;
+  if (faces.size() < 2) return;
+  const std::vector<std::uint32_t> face =
+      carry_labels(selected.mesh, selected.faces.of_triangle, result.surface, simplified.line_edges);
+  std::vector<NamedSet> sets;
+  for (const SurfaceFace& f : faces) sets.push_back({f.name, {}});
+  for (std::uint32_t t = 0; t < face.size(); ++t) sets[face[t]].members.push_back(t);
+  for (std::size_t f = 0; f < sets.size(); ++f)
+    if (!sets[f].members.empty() && find_set(result.face_sets, sets[f].name) == result.face_sets.size())
+      add_set(std::move(sets[f]), faces[f].area, result);
+}
+
 }  // namespace
 
 SelectedScan select_parts(const SurfaceMesh& whole, const SurfaceMesh& given_scan, const PipelineOptions& options,
@@ -45,11 +60,6 @@ SelectedScan select_parts(const SurfaceMesh& whole, const SurfaceMesh& given_sca
   std::vector<NamedSelection> selections = with_given(options.sets, given, scan.triangles.size());
   std::optional<SurfaceFaces> faces;
   if (options.idealise || options.name_faces) faces = find_faces(scan, features, progress);
-  if (options.name_faces) {
-    std::vector<NamedSet> named;
-    for (const SurfaceFace& face : faces->list) named.push_back({face.name, {0}});
-    selections = with_given(std::move(selections), named, scan.triangles.size());
-  }
   if (options.idealise) {
     const IdealiseResult idealised = idealise(scan, *faces, *options.idealise);
     record.changes = {{"idealised", static_cast<double>(idealised.moved)},
@@ -65,7 +75,7 @@ SelectedScan select_parts(const SurfaceMesh& whole, const SurfaceMesh& given_sca
   return selected;
 }
 
-void carry_parts(const SelectedScan& selected, std::size_t asked, const SimplifyResult& simplified,
+void carry_parts(const SelectedScan& selected, const PipelineOptions& options, const SimplifyResult& simplified,
                  PipelineResult& result) {
   const SurfaceMesh& surface = result.surface;
   const std::vector<std::uint32_t> label =
@@ -79,7 +89,7 @@ void carry_parts(const SelectedScan& selected, std::size_t asked, const Simplify
   std::vector<NamedSet> carried = carried_sets(selected.sets, origin);
   for (std::size_t s = 0; s < carried.size(); ++s) {
     NamedSet& set = carried[s];
-    if (set.members.empty() && s >= asked) continue;
+    if (set.members.empty() && s >= options.sets.size()) continue;
     if (set.members.empty())
       throw NotMeshable({.what = "nothing is left of the set " + set.name,
                          .where = {},
@@ -88,6 +98,7 @@ void carry_parts(const SelectedScan& selected, std::size_t asked, const Simplify
                          .advice = "smaller triangles (--deviation, --faces, --size-ball), --method lattice"});
     add_set(std::move(set), selected.areas[s], result);
   }
+  if (options.name_faces) name_faces(selected, simplified, result);
   result.faces = selected.faces;
 }
 

@@ -15,9 +15,10 @@ SelectedScan select_parts(const SurfaceMesh& whole, const SurfaceMesh& given, co
                           const Progress& progress, std::optional<SimplifyOptions>& simplification,
                           StageRecord& record);
 
-// The sets on `result.surface`, whose triangles' order the boundary of the volume keeps. The first `asked` must not
-// vanish (NotMeshable); of those that came with the scan, what is smaller than triangles may.
-void carry_parts(const SelectedScan& selected, std::size_t asked, const SimplifyResult& simplified,
+// The sets on `result.surface`, whose triangles' order the boundary of the volume keeps; all faces, too, where
+// `options.name_faces`. Those of `options.sets` must not vanish (NotMeshable); of the others, what is smaller than
+// triangles may.
+void carry_parts(const SelectedScan& selected, const PipelineOptions& options, const SimplifyResult& simplified,
                  PipelineResult& result);
 
 // Puts a set of the result's triangles behind those that it has, with its figures. `area_of_scan`: where not given,

@@ -332,7 +332,7 @@ void run_stages(SurfaceMesh scan, const SurfaceMesh* seen, const PipelineOptions
                                              result.reference(), options);
   result.surface = std::move(made.surface);
   result.features = std::move(made.simplified.features);
-  if (selected) carry_parts(*selected, options.sets.size(), made.simplified, result);
+  if (selected) carry_parts(*selected, options, made.simplified, result);
   add_made_up_sets(options.enrich ? enriched : result.scan, origins, result);
   if (options.tetrahedralize) {
     result.volume_mesh = std::move(made.filled.mesh);

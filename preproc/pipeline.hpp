@@ -38,7 +38,7 @@ struct PipelineOptions {
   // Of the triangles of the scan as it is given: names that came with it. They are kept as sets, but for those that a
   // selection has taken, and those of all triangles, and expressions may name them.
   std::vector<NamedSet> given_sets = {};
-  bool name_faces = false;                // each face of the scan is a set: FACE_1, ...
+  bool name_faces = false;                // each face of the scan is a set, FACE_1, ...; no lines are added
   std::optional<Idealise> idealise = {};  // the scan before it is simplified
 };
 

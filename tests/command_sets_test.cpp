@@ -151,6 +151,29 @@ TEST_F(CommandSets, FacesAreListed) {
   EXPECT_THAT(run_command("faces '" + path("pin.ply") + "'").standard_output, HasSubstr("FACE_3    cylinder"));
 }
 
+TEST_F(CommandSets, NamesOfFacesLeaveTheMeshAsItIs) {
+  write_surface(analytic::box({3, 4, 5}, 0.5), path("box.ply"));
+  write_surface(analytic::machined_part(1, 0).scan, path("part.ply"));
+  for (const std::string name : {"box.ply", "part.ply"}) {
+    run("'" + path(name) + "'");
+    const TetMesh without = read_volume(path("out.inp"));
+    const nlohmann::json report = run("'" + path(name) + "' --name-faces");
+    const TetMesh with = read_volume(path("out.inp"));
+    EXPECT_EQ(with.tetrahedra, without.tetrahedra) << name;
+    EXPECT_EQ(with.nodes, without.nodes) << name;
+    EXPECT_EQ(report["sets"].size(), report["faces"].size()) << name;
+    // Each triangle has one face.
+    std::vector<int> times(with.boundary.size(), 0);
+    for (const NamedSet& set : with.face_sets)
+      for (const std::uint32_t f : set.members) ++times[f];
+    EXPECT_TRUE(std::all_of(times.begin(), times.end(), [](int n) { return n == 1; })) << name;
+    EXPECT_THAT(report["sets"][0]["name"], "FACE_1");
+    EXPECT_NEAR(report["sets"][0]["area_difference_pct"].get<double>(), 0, 0.1) << name;
+  }
+  write_surface(analytic::sphere(10, 4), path("ball.ply"));
+  EXPECT_FALSE(run("'" + path("ball.ply") + "' --name-faces").contains("sets")) << "one face is no part of it";
+}
+
 TEST_F(CommandSets, FacesOfEveryFormatAreListed) {
   const SurfaceMesh box = analytic::box({3, 4, 5}, 1);
   NamedSurface named{.mesh = box, .node_sets = {}, .face_sets = {named_set("GRIP", {0, 1, 2})}, .unit = "mm"};

@@ -42,18 +42,20 @@ class OtherReaders : public testing::TestWithParam<std::tuple<Case, int>> {};
 INSTANTIATE_TEST_SUITE_P(
     LibraryAndOrder, OtherReaders,
     testing::Combine(
-        testing::Values(Case{"meshio", "box.inp", both(bodies, pins)}, Case{"meshio", "box.msh", all, MshVersion::v2_2},
-                        Case{"meshio", "box.msh", all}, Case{"meshio", "box.vtu", all},
-                        Case{"meshio", "box.med", both(all, {{"EALL", 48}, {"SALL", 56}})},
-                        Case{"meshio", "box.xdmf", both(tags, pins)},
-                        Case{"meshio", "box.bdf", {{"property_2", 24}, {"property_3", 24}}},
-                        Case{"vtk", "box.vtu", all}, Case{"gmsh", "box.msh", all, MshVersion::v2_2},
-                        Case{"gmsh", "box.msh", both(all, {{"SALL", 48}})},
-                        Case{"gmsh",
-                             "box.unv",
-                             {{"physical_3_2", 24}, {"physical_3_3", 24}, {"physical_2_5", 4}, {"physical_2_6", 4}}},
-                        Case{"dolfinx", "box.xdmf", both(tags, {{"area_of_FIXED", 2}})},
-                        Case{"dolfinx", "box.msh", both(tags, {{"area_of_FIXED", 2}})}),
+        testing::Values(
+            Case{"meshio", "box.inp", both(bodies, pins)}, Case{"meshio", "box.msh", all, MshVersion::v2_2},
+            Case{"meshio", "box.msh", all}, Case{"meshio", "box.vtu", all},
+            Case{"meshio", "box.med", both(all, {{"EALL", 48}, {"SALL", 56}})},
+            Case{"meshio", "box.xdmf", both(tags, pins)},
+            Case{"meshio", "box.bdf", {{"property_2", 24}, {"property_3", 24}}}, Case{"vtk", "box.vtu", all},
+            Case{"vtk", "box.exo", both(all, {{"SALL", 56}, {"EALL", 48}, {"area_of_FIXED", 2}, {"area_of_SALL", 28}})},
+            Case{"meshio", "box.exo", pins}, Case{"gmsh", "box.msh", all, MshVersion::v2_2},
+            Case{"gmsh", "box.msh", both(all, {{"SALL", 48}})},
+            Case{"gmsh",
+                 "box.unv",
+                 {{"physical_3_2", 24}, {"physical_3_3", 24}, {"physical_2_5", 4}, {"physical_2_6", 4}}},
+            Case{"dolfinx", "box.xdmf", both(tags, {{"area_of_FIXED", 2}})},
+            Case{"dolfinx", "box.msh", both(tags, {{"area_of_FIXED", 2}})}),
         testing::Values(1, 2)));
 
 // Debian's own interpreter, which has Debian's packages; another one may come first on the path. The exit status, and
@@ -107,7 +109,8 @@ TEST_P(OtherReaders, FindTheSameMesh) {
 class OtherReadersOfSurfaces : public testing::TestWithParam<std::pair<std::string, std::string>> {};
 INSTANTIATE_TEST_SUITE_P(LibraryAndFile, OtherReadersOfSurfaces,
                          testing::Values(std::pair("vtk", "box.vtp"), std::pair("vtk", "box.vtu"),
-                                         std::pair("meshio", "box.vtu"), std::pair("meshio", "box.inp")));
+                                         std::pair("vtk", "box.exo"), std::pair("meshio", "box.vtu"),
+                                         std::pair("meshio", "box.inp")));
 
 TEST_P(OtherReadersOfSurfaces, FindTheSameSurface) {
   const auto& [library, file] = GetParam();

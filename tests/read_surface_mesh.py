@@ -11,6 +11,19 @@ def by_vtk(name):
     import vtk
     from vtk.util.numpy_support import vtk_to_numpy
 
+    if name.endswith(".exo"):
+        reader = vtk.vtkExodusIIReader()
+        reader.SetFileName(name)
+        reader.UpdateInformation()
+        arrays = {}
+        for kind, word in ((reader.NODE_SET, "node_set "), (reader.ELEM_SET, "face_set ")):
+            for i in range(reader.GetNumberOfObjects(kind)):
+                key = word + reader.GetObjectName(kind, i).split(" ID:")[0].removeprefix("Unnamed ")
+                arrays[key] = numpy.ones(reader.GetNumberOfEntriesInObject(kind, i))
+        reader.Update()
+        grid = reader.GetOutput().GetBlock(0).GetBlock(0)
+        triangles = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 3)
+        return vtk_to_numpy(grid.GetPoints().GetData()), triangles, arrays
     reader = vtk.vtkXMLPolyDataReader() if name.endswith(".vtp") else vtk.vtkXMLUnstructuredGridReader()
     reader.SetFileName(name)
     reader.Update()

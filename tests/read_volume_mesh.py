@@ -71,10 +71,45 @@ def by_meshio(name):
     return mesh.points, cells, sets, EDGES
 
 
+def exodus_by_vtk(name):
+    """One grid from its blocks; sides and sets by what the reader makes of them."""
+    import vtk
+    from vtk.util.numpy_support import vtk_to_numpy
+
+    reader = vtk.vtkExodusIIReader()
+    reader.SetFileName(name)
+    reader.UpdateInformation()
+    sets, kinds = {}, {}
+    for kind in (reader.ELEM_BLOCK, reader.SIDE_SET, reader.NODE_SET, reader.ELEM_SET):
+        for i in range(reader.GetNumberOfObjects(kind)):
+            reader.SetObjectStatus(kind, i, 1)
+            sets[reader.GetObjectName(kind, i).split(" ID:")[0].removeprefix("Unnamed ")] = reader.GetNumberOfEntriesInObject(kind, i)
+    reader.Update()
+    blocks = reader.GetOutput().GetBlock(0)  # the element blocks
+    points, cells = [], []
+    for i in range(blocks.GetNumberOfBlocks()):
+        grid = blocks.GetBlock(i)
+        kind = {10: 4, 24: 10}[grid.GetCellType(0)]
+        cells.append(vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, kind) + sum(len(p) for p in points))
+        points.append(vtk_to_numpy(grid.GetPoints().GetData()))
+    sides = reader.GetOutput().GetBlock(4)
+    for i in range(sides.GetNumberOfBlocks()):
+        grid = sides.GetBlock(i)
+        key = sides.GetMetaData(i).Get(vtk.vtkCompositeDataSet.NAME()).split(" ID:")[0].removeprefix("Unnamed ")
+        corners = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(grid.GetNumberOfCells(), -1)[:, :3]
+        a, b, c = (vtk_to_numpy(grid.GetPoints().GetData())[corners[:, k]] for k in range(3))
+        sets["area_of_" + key] = float(numpy.linalg.norm(numpy.cross(b - a, c - a), axis=1).sum() / 2)
+    # Each block has points of its own.
+    unique, index = numpy.unique(numpy.concatenate(points), axis=0, return_inverse=True)
+    return unique, index.reshape(-1)[numpy.concatenate(cells)], sets, EDGES
+
+
 def by_vtk(name):
     import vtk
     from vtk.util.numpy_support import vtk_to_numpy
 
+    if name.endswith(".exo"):
+        return exodus_by_vtk(name)
     reader = vtk.vtkXMLUnstructuredGridReader()
     reader.SetFileName(name)
     reader.Update()

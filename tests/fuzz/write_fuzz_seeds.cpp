@@ -170,10 +170,10 @@ void write_soups(const fs::path& folder) {
 
 void write_seeds(const fs::path& folder) {
   for (const char* target :
-       {"read_stl",  "read_obj", "read_ply",   "read_off",           "read_xyz",           "read_ptx",
-        "read_pcd",  "read_las", "read_inp",   "read_msh",           "read_vtu",           "read_vtp",
-        "read_vtk",  "read_3mf", "read_bdf",   "read_unv",           "read_xdmf",          "read_cdb",
-        "read_mail", "read_su2", "read_elmer", "read_feature_lines", "read_configuration", "repair"})
+       {"read_stl",   "read_obj",           "read_ply",           "read_off", "read_xyz",  "read_ptx", "read_pcd",
+        "read_las",   "read_inp",           "read_msh",           "read_vtu", "read_vtp",  "read_vtk", "read_3mf",
+        "read_bdf",   "read_unv",           "read_xdmf",          "read_cdb", "read_mail", "read_su2", "read_exo",
+        "read_elmer", "read_feature_lines", "read_configuration", "repair"})
     fs::create_directories(folder / target);
   write_surfaces(folder);
   write_clouds(folder);
