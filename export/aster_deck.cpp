@@ -7,6 +7,9 @@
 namespace scan2fea {
 namespace {
 
+// Of Code_Aster, whose concepts, what is assigned here, have names of eight characters at most.
+constexpr std::size_t longest_group = 24;
+
 // Names come from files: no more of Python than what stands between quotes.
 std::string quoted(const std::string& name) {
   std::string text = "\"";
@@ -52,9 +55,12 @@ void write_material(std::ostream& out, const DeckParts& parts) {
       << ", NU=" << deck_number(Steel::poisson) << ", RHO=" << deck_number(units.of_density(Steel::density))
       << ")\n)\n";
   for (const std::string& name : parts.no_bodies) out << "# " << one_line(name) << " overlaps with a body\n";
+  for (const std::string& name : parts.bodies)
+    if (name.size() > longest_group) out << "# " << one_line(name) << ": a name longer than Code_Aster takes\n";
   if (!parts.bodies.empty()) out << "# ASSUMED: all bodies are of it. The first line is for elements of no body.\n";
   out << "material = AFFE_MATERIAU(\n    MAILLAGE=mesh,\n    AFFE=(\n        _F(TOUT=\"OUI\", MATER=steel),\n";
-  for (const std::string& name : parts.bodies) out << "        _F(GROUP_MA=" << quoted(name) << ", MATER=steel),\n";
+  for (const std::string& name : parts.bodies)
+    if (name.size() <= longest_group) out << "        _F(GROUP_MA=" << quoted(name) << ", MATER=steel),\n";
   out << "    ),\n)\n\n";
 }
 
@@ -81,10 +87,10 @@ void write_static(std::ostream& out, const DeckParts& parts) {
       << "result = CALC_CHAMP(\n    reuse=result,\n    RESULTAT=result,\n    CONTRAINTE=(\"SIGM_ELNO\", "
          "\"SIGM_NOEU\"),\n"
          "    CRITERES=(\"SIEQ_ELNO\", \"SIEQ_NOEU\"),\n    FORCE=(\"REAC_NODA\",),\n)\n"
-      << "reactions = POST_RELEVE_T(\n    ACTION=_F(\n        OPERATION=\"EXTRACTION\",\n        "
+      << "reacs = POST_RELEVE_T(\n    ACTION=_F(\n        OPERATION=\"EXTRACTION\",\n        "
          "INTITULE=\"reactions\",\n"
          "        RESULTAT=result,\n        NOM_CHAM=\"REAC_NODA\",\n        GROUP_NO="
-      << nodes << ",\n        RESULTANTE=(\"DX\", \"DY\", \"DZ\"),\n    )\n)\nIMPR_TABLE(TABLE=reactions, UNITE=8)\n"
+      << nodes << ",\n        RESULTANTE=(\"DX\", \"DY\", \"DZ\"),\n    )\n)\nIMPR_TABLE(TABLE=reacs, UNITE=8)\n"
       << "IMPR_RESU(\n    FORMAT=\"MED\",\n    UNITE=80,\n"
          "    RESU=_F(RESULTAT=result, NOM_CHAM=(\"DEPL\", \"SIGM_NOEU\", \"SIEQ_NOEU\", "
          "\"REAC_NODA\")),\n)\n\nFIN()\n";
@@ -92,13 +98,13 @@ void write_static(std::ostream& out, const DeckParts& parts) {
 
 void write_modal(std::ostream& out) {
   out << "\nASSEMBLAGE(\n    MODELE=model,\n    CHAM_MATER=material,\n    CHARGE=clamp,\n    "
-         "NUME_DDL=CO(\"numbering\"),\n"
-         "    MATR_ASSE=(\n        _F(MATRICE=CO(\"stiffness\"), OPTION=\"RIGI_MECA\"),\n"
+         "NUME_DDL=CO(\"dofs\"),\n"
+         "    MATR_ASSE=(\n        _F(MATRICE=CO(\"stiff\"), OPTION=\"RIGI_MECA\"),\n"
          "        _F(MATRICE=CO(\"mass\"), OPTION=\"MASS_MECA\"),\n    ),\n)\n"
       << "# ASSUMED: the lowest " << deck_modes << " modes\n"
-      << "modes = CALC_MODES(\n    MATR_RIGI=stiffness, MATR_MASS=mass, OPTION=\"PLUS_PETITE\", CALC_FREQ=_F(NMAX_FREQ="
+      << "modes = CALC_MODES(\n    MATR_RIGI=stiff, MATR_MASS=mass, OPTION=\"PLUS_PETITE\", CALC_FREQ=_F(NMAX_FREQ="
       << deck_modes << ")\n)\n"
-      << "frequencies = RECU_TABLE(CO=modes, NOM_PARA=\"FREQ\")\nIMPR_TABLE(TABLE=frequencies, UNITE=8)\n"
+      << "freqs = RECU_TABLE(CO=modes, NOM_PARA=\"FREQ\")\nIMPR_TABLE(TABLE=freqs, UNITE=8)\n"
       << "IMPR_RESU(FORMAT=\"MED\", UNITE=80, RESU=_F(RESULTAT=modes, NOM_CHAM=\"DEPL\"))\n\nFIN()\n";
 }
 

@@ -85,6 +85,20 @@ TEST(JacobianBound, EnclosesTheSampledMinimum) {
   EXPECT_GT(invalid, 20);
 }
 
+TEST(JacobianBound, IsAsCloseAsItIsWanted) {
+  std::mt19937 generator(12);
+  std::normal_distribution<double> shift(0, 0.04);
+  for (int trial = 0; trial < 100; ++trial) {
+    CurvedTetrahedron nodes = unit();
+    for (std::size_t e = 4; e < 10; ++e) nodes[e] += Vec3(shift(generator), shift(generator), shift(generator));
+    const JacobianBound bound = min_jacobian_bound(nodes, 0.01, JacobianWanted::value);
+    // The largest coefficient is a small multiple of the straight Jacobian, which is 1.
+    EXPECT_LE(bound.upper - bound.lower, 0.01 * 3);
+    EXPECT_LE(bound.lower, smallest_sampled(nodes) + 1e-12);
+    EXPECT_GE(bound.lower, smallest_sampled(nodes) - 0.05);
+  }
+}
+
 TEST(JacobianBound, OfAMirroredElementIsNegative) {
   EXPECT_LT(min_jacobian_bound(straight({0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1})).upper, 0);
 }
