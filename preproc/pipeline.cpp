@@ -3,6 +3,7 @@
 #include "preproc/made_up.hpp"
 #include "preproc/mesh/error.hpp"
 #include "preproc/named_parts.hpp"
+#include "preproc/second_order.hpp"
 #include "preproc/stage_descriptions.hpp"
 #include "preproc/surface/kernel/canonical_frame.hpp"
 #include "preproc/surface/repair/solid_volume.hpp"
@@ -120,6 +121,7 @@ class MeshMaker {
   void adapt(std::optional<StairSteps> stairs);
   void simplify(const Progress& progress);
   void tetrahedralize(const Progress& progress);
+  void curve(const Progress& progress);
   void bring_back();
   const SurfaceMesh& scan() const { return placed_ ? *placed_ : scan_; }
 
@@ -174,6 +176,7 @@ FilledSurface MeshMaker::run(const Progress& progress) {
   try {
     simplify(progress);
     if (options_.tetrahedralize) tetrahedralize(progress);
+    if (options_.tetrahedralize && options_.order == 2) curve(progress);
   } catch (Error& error) {
     ErrorParts parts = error.parts();
     if (parts.at) parts.at = in_scan_.place(*parts.at);
@@ -220,6 +223,13 @@ void MeshMaker::tetrahedralize(const Progress& progress) {
   });
 }
 
+void MeshMaker::curve(const Progress& progress) {
+  if (!search_ || !made_.filled.boundary_parent.empty()) return;
+  log_.run("second order", [&](StageRecord& record) {
+    describe(make_second_order(*search_, tetrahedralization_, made_, progress), in_scan_, record);
+  });
+}
+
 void MeshMaker::bring_back() {
   if (!frame_) return;
   frame_->bring_back(made_.surface.vertices, scan_);
@@ -239,30 +249,15 @@ void hand_on_creases(const SurfaceMesh& enriched, const std::vector<FeatureEdge>
   simplification->may_drop_given = true;
 }
 
-// Where corner nodes are not the surface's vertices, there are no edges of lines.
-ScanLines lines_of_scan(const PipelineResult& result, const FilledSurface& made, const PipelineOptions& options) {
-  ScanLines lines{
-      .edges = made.simplified.line_edges, .points = result.features.points, .segments = result.features.segments};
-  if (!made.filled.boundary_parent.empty()) lines.edges.clear();
-  if (!options.simplify) return lines;
-  const FeatureLines& kept = options.simplify->kept_lines;
-  const auto first = static_cast<std::uint32_t>(lines.points.size());
-  lines.points.insert(lines.points.end(), kept.points.begin(), kept.points.end());
-  for (const auto& [a, b] : kept.segments) lines.segments.push_back({a + first, b + first});
-  return lines;
+// Without a scan beside the surface, or where corner nodes are not the surface's vertices.
+CurveResult curve_on_scan(TetMesh& mesh, const SurfaceMesh& scan) {
+  add_mid_edge_nodes(mesh);
+  EdgePlaces to = nearest_on_scan(mesh, TriangleTree(scan));
+  return curve_mid_edge_nodes(mesh, to);
 }
 
-void curve(const SurfaceMesh& scan, const ScanLines& lines, PipelineResult& result, StageRecord& record) {
-  TetMesh& mesh = *result.volume_mesh;
-  const std::size_t corners = mesh.nodes.size();
-  add_mid_edge_nodes(mesh);
-  const CurveResult curved = curve_mid_edge_nodes(mesh, TriangleTree(scan), {}, lines);
-  record.changes = {{"nodes_added", static_cast<double>(mesh.nodes.size() - corners)},
-                    {"curved_edges", static_cast<double>(curved.curved)},
-                    {"straight_edges_too_far", static_cast<double>(curved.too_far)},
-                    {"straight_edges_for_validity", static_cast<double>(curved.invalid)},
-                    {"least_jacobian_of_straight", curved.least_jacobian},
-                    {"curved_volume", curved.volume}};
+void measure_sets(PipelineResult& result) {
+  const TetMesh& mesh = *result.volume_mesh;
   for (std::size_t s = 0; s < result.sets.size(); ++s) {
     result.sets[s].area = 0;
     for (const std::uint32_t f : mesh.face_sets[s].members) result.sets[s].area += face_area(mesh, mesh.boundary[f]);
@@ -339,8 +334,11 @@ void run_stages(SurfaceMesh scan, const SurfaceMesh* seen, const PipelineOptions
     const std::vector<std::uint32_t>& parent = made.filled.boundary_parent;  // where the boundary was split
     result.volume_mesh->face_sets = parent.empty() ? result.face_sets : carried_sets(result.face_sets, parent);
     if (options.order == 2) {
-      log.run("second order",
-              [&](StageRecord& record) { curve(start, lines_of_scan(result, made, chain), result, record); });
+      if (result.volume_mesh->order() == 1)
+        log.run("second order", [&](StageRecord& record) {
+          describe({.curved = curve_on_scan(*result.volume_mesh, start)}, InScan({}), record);
+        });
+      measure_sets(result);
       result.weak_places = find_weak_places(result.surface, &*result.volume_mesh, result.reference());
     }
   }

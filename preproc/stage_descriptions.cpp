@@ -174,4 +174,20 @@ void describe(const RenewalResult& renewal, const InScan& in_scan, StageRecord& 
     record.changes.emplace_back("largest_deviation", in_scan.unit() * made.simplified.largest_deviation);
 }
 
+void describe(const SecondOrderResult& result, const InScan& in_scan, StageRecord& record) {
+  const CurveResult& curved = result.curved;
+  const double unit = in_scan.unit();
+  record.changes = {{"tetrahedra", static_cast<double>(curved.tetrahedra)},
+                    {"nodes", static_cast<double>(curved.nodes)},
+                    {"curved_edges", static_cast<double>(curved.curved)},
+                    {"eased_edges", static_cast<double>(curved.eased)},
+                    {"parted_elements", static_cast<double>(result.parted_elements)},
+                    {"straight_triangles", static_cast<double>(result.straight_triangles)},
+                    {"largest_bend", unit * curved.largest_displacement},
+                    {"least_scaled_jacobian", curved.least_scaled_jacobian},
+                    {"curved_volume", unit * unit * unit * curved.volume}};
+  if (result.corners_kept)
+    record.remarks.emplace_back("corners stayed where they were: with them on the scan no tetrahedra came out");
+}
+
 }  // namespace scan2fea

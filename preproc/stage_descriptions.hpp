@@ -2,6 +2,7 @@
 #pragma once
 
 #include "preproc/pipeline.hpp"
+#include "preproc/second_order.hpp"
 #include "preproc/surface/kernel/canonical_frame.hpp"
 #include "preproc/tetrahedra_search.hpp"
 
@@ -27,5 +28,6 @@ void describe(const EnrichResult& result, StageRecord& record);
 void describe(const SimplifyResult& result, const InScan& in_scan, StageRecord& record);
 void describe(const TetrahedralizeResult& result, const InScan& in_scan, StageRecord& record);
 void describe(const RenewalResult& renewal, const InScan& in_scan, StageRecord& record);
+void describe(const SecondOrderResult& result, const InScan& in_scan, StageRecord& record);
 
 }  // namespace scan2fea

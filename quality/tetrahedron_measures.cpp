@@ -55,15 +55,21 @@ double dihedral_deg(const CurvedTetrahedron& x, std::size_t e, const std::array<
   return degrees * std::atan2(n1.cross(n2).norm(), -n1.dot(n2));
 }
 
+std::array<double, 6> curve_lengths(const CurvedTetrahedron& x) {
+  std::array<double, 6> length;
+  for (std::size_t e = 0; e < 6; ++e)
+    length[e] = curve_length(x[static_cast<std::size_t>(tetrahedron_edges[e][0])], x[4 + e],
+                             x[static_cast<std::size_t>(tetrahedron_edges[e][1])]);
+  return length;
+}
+
 TetShape measure_curved(const CurvedTetrahedron& x) {
   TetShape shape = measure_tetrahedron(x[0], x[1], x[2], x[3]);
   shape.min_dihedral_deg = 180;
   shape.max_dihedral_deg = 0;
-  std::array<double, 6> length;
   for (std::size_t e = 0; e < 6; ++e) {
     const auto i = static_cast<std::size_t>(tetrahedron_edges[e][0]),
                j = static_cast<std::size_t>(tetrahedron_edges[e][1]);
-    length[e] = curve_length(x[i], x[4 + e], x[j]);
     for (const double along : {0.0, 0.5, 1.0}) {
       std::array<double, 4> at{0, 0, 0, 0};
       at[i] = 1 - along;
@@ -73,12 +79,8 @@ TetShape measure_curved(const CurvedTetrahedron& x) {
       shape.max_dihedral_deg = std::max(shape.max_dihedral_deg, angle);
     }
   }
-  double largest_product = 0;
-  for (const auto& edges : edges_at_corner)
-    largest_product = std::max(largest_product, length[edges[0]] * length[edges[1]] * length[edges[2]]);
-  constexpr double tolerance = 0.01;  // of the largest Jacobian: a hundredth of a figure that is 1 at best
-  const double least = min_jacobian_bound(x, tolerance, JacobianWanted::value).lower;
-  shape.scaled_jacobian = largest_product > 0 ? std::numbers::sqrt2 * least / largest_product : 0;
+  shape.scaled_jacobian = curved_scaled_jacobian(x);
+  const std::array<double, 6> length = curve_lengths(x);
   if (shape.edge_ratio)
     shape.edge_ratio =
         *std::max_element(length.begin(), length.end()) / *std::min_element(length.begin(), length.end());
@@ -151,6 +153,16 @@ TetShape measure_tetrahedron(const Vec3& a, const Vec3& b, const Vec3& c, const 
     shape.radius_edge_ratio = radius / *shortest;
   }
   return shape;
+}
+
+double curved_scaled_jacobian(const CurvedTetrahedron& x) {
+  const std::array<double, 6> length = curve_lengths(x);
+  double largest_product = 0;
+  for (const auto& edges : edges_at_corner)
+    largest_product = std::max(largest_product, length[edges[0]] * length[edges[1]] * length[edges[2]]);
+  constexpr double tolerance = 0.01;  // of the largest Jacobian: a hundredth of a figure that is 1 at best
+  const double least = min_jacobian_bound(x, tolerance, JacobianWanted::value).lower;
+  return largest_product > 0 ? std::numbers::sqrt2 * least / largest_product : 0;
 }
 
 TetShape measure_tetrahedron(const TetMesh& mesh, std::size_t tetrahedron) {

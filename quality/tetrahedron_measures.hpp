@@ -28,6 +28,9 @@ struct TetShape {
 
 TetShape measure_tetrahedron(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
+// The smallest over the whole element, from below. About 2 us.
+double curved_scaled_jacobian(const CurvedTetrahedron& nodes);
+
 // Of an element of the mesh, of either order.
 TetShape measure_tetrahedron(const TetMesh& mesh, std::size_t tetrahedron);
 

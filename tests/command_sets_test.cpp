@@ -110,7 +110,9 @@ TEST_F(CommandSets, OfAPartKeepTheirAreas) {
         run("'" + path("part.ply") +
             "' --order 2 --deviation 0.1% --set 'fixed=plane(z<0.5)' --set 'load=cylinder(z, r=6.5+-0.2, "
             "hole)' --set 'top=cylinder(x)' --set 'rim=plane(z>29.5)'");
-    for (const auto& set : report["sets"]) EXPECT_LT(std::abs(set["area_difference_pct"].get<double>()), 0.1) << set;
+    // The scan's chords of a bore of radius 4 are 1 long: what is smooth and as far from them inside as outside has a
+    // quarter of a per cent less area.
+    for (const auto& set : report["sets"]) EXPECT_LT(std::abs(set["area_difference_pct"].get<double>()), 0.25) << set;
     const double near = noise > 0 ? 0.15 : 0.05;
     expect_exactly("FIXED", [&](const Vec3& p) { return p.z() < near; });
   }

@@ -355,8 +355,10 @@ TEST_F(Command, FiguresOfSecondOrderAreOfTheCurvedElements) {
   const auto report = nlohmann::json::parse(made.standard_output);
   for (const auto& stage : report.at("stages"))
     if (stage.at("name") == "second order") {
-      EXPECT_EQ(report.at("volume_mesh").at("volume"), stage.at("curved_volume"));
-      EXPECT_NE(report.at("volume_mesh").at("scaled_jacobian").at("min"), stage.at("least_jacobian_of_straight"));
+      const double volume = report.at("volume_mesh").at("volume");
+      EXPECT_NEAR(volume, stage.at("curved_volume").get<double>(), 1e-12 * volume);
+      EXPECT_LE(report.at("volume_mesh").at("scaled_jacobian").at("min").get<double>(),
+                stage.at("least_scaled_jacobian").get<double>() + 1e-9);  // which is of those with curved edges
     }
   EXPECT_EQ(report.at("surface").at("volume"), report.at("volume_mesh").at("volume"));
   const auto check = [&](const std::string& flags) { return run_command("check '" + part + "' --quiet " + flags); };

@@ -1,10 +1,11 @@
 #include "preproc/volume/mid_edge_nodes.hpp"
 
-#include "quality/jacobian_bound.hpp"
+#include "preproc/volume/mid_edge_relocation.hpp"
+#include "quality/tetrahedron_measures.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <iterator>
 #include <tuple>
 
 namespace scan2fea {
@@ -17,51 +18,39 @@ struct Edge {
   bool same_ends(const Edge& other) const { return low == other.low && high == other.high; }
 };
 
-// A boundary edge by its mid-edge node: where it is straight, and where the scan has it.
+constexpr double farthest_of_edge = 0.25;
+// Of the way that a node is from the middle of its edge, each time that an element beside it suffers; after so many
+// times it is in the middle.
+constexpr double easing = 0.85;
+constexpr int most_easings = 20;
+
+// The node in the middle of each of these edges; no_node where the boundary has no such edge.
+constexpr std::uint32_t no_node = ~0U;
+
+template <class T>
+void sort_and_unique(std::vector<T>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
 struct BoundaryEdge {
+  std::array<std::uint32_t, 2> ends;
   std::uint32_t node;
-  double length;
-  Vec3 straight;
-  std::array<std::uint32_t, 2> ends;  // corner nodes, the smaller one first
+
+  auto operator<=>(const BoundaryEdge&) const = default;
 };
 
 std::vector<BoundaryEdge> boundary_edges(const TetMesh& mesh) {
   std::vector<BoundaryEdge> edges;
   for (const BoundaryFace f : mesh.boundary) {
-    const auto& corners = tetrahedron_faces[f.face];
-    for (std::size_t e = 0; e < 6; ++e) {
-      const auto [a, b] = tetrahedron_edges[e];
-      if (std::find(corners.begin(), corners.end(), a) == corners.end() ||
-          std::find(corners.begin(), corners.end(), b) == corners.end())
-        continue;
-      const Tetrahedron& t = mesh.tetrahedra[f.tetrahedron];
-      const std::uint32_t i = t[static_cast<std::size_t>(a)], j = t[static_cast<std::size_t>(b)];
-      const Vec3 &p = mesh.nodes[i], &q = mesh.nodes[j];
-      edges.push_back(
-          {mesh.mid_edge_nodes[f.tetrahedron][e], (q - p).norm(), (p + q) / 2, {std::min(i, j), std::max(i, j)}});
+    const Triangle corners = boundary_triangle(mesh, f), middles = boundary_mid_edge_nodes(mesh, f);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [low, high] = std::minmax(corners[k], corners[(k + 1) % 3]);
+      edges.push_back({{low, high}, middles[k]});
     }
   }
-  std::sort(edges.begin(), edges.end(), [](const BoundaryEdge& a, const BoundaryEdge& b) { return a.node < b.node; });
-  edges.erase(std::unique(edges.begin(), edges.end(),
-                          [](const BoundaryEdge& a, const BoundaryEdge& b) { return a.node == b.node; }),
-              edges.end());
+  sort_and_unique(edges);
   return edges;
-}
-
-// A segment is a triangle without area.
-std::optional<TriangleTree> tree_of(const ScanLines& lines) {
-  if (lines.segments.empty()) return {};
-  SurfaceMesh flat{lines.points, {}};
-  for (const auto& [a, b] : lines.segments) flat.triangles.push_back({a, b, b});
-  return TriangleTree(flat);
-}
-
-// The least Jacobian of an element over its straight one, from below.
-double least_jacobian(const TetMesh& mesh, std::size_t t) {
-  const Tetrahedron& c = mesh.tetrahedra[t];
-  const Vec3& a = mesh.nodes[c[0]];
-  const double straight = (mesh.nodes[c[1]] - a).cross(mesh.nodes[c[2]] - a).dot(mesh.nodes[c[3]] - a);
-  return min_jacobian_bound(curved_tetrahedron(mesh, t)).lower / straight;
 }
 
 }  // namespace
@@ -87,58 +76,88 @@ void add_mid_edge_nodes(TetMesh& mesh) {
   }
 }
 
-CurveResult curve_mid_edge_nodes(TetMesh& mesh, const TriangleTree& scan, const CurveOptions& options,
-                                 const ScanLines& lines) {
-  CurveResult result;
-  const std::optional<TriangleTree> line_tree = tree_of(lines);
-  const std::vector<BoundaryEdge> edges = boundary_edges(mesh);
-  std::vector<bool> curved(mesh.nodes.size(), false);
+EdgePlaces nearest_on_scan(const TetMesh& mesh, const TriangleTree& scan) {
+  EdgePlaces to;
   std::uint32_t hint = 0;
-  for (const BoundaryEdge& edge : edges) {
-    const bool on_line = line_tree && std::binary_search(lines.edges.begin(), lines.edges.end(), edge.ends);
-    const ClosestPoint nearest = on_line ? line_tree->closest(edge.straight) : scan.closest(edge.straight, hint);
-    if (!on_line) hint = nearest.triangle;
-    if (std::sqrt(nearest.squared_distance) > options.largest_displacement * edge.length) {
-      ++result.too_far;
-      continue;
-    }
-    mesh.nodes[edge.node] = nearest.point;
-    curved[edge.node] = true;
+  for (const BoundaryEdge& edge : boundary_edges(mesh)) {
+    const Vec3 &a = mesh.nodes[edge.ends[0]], &b = mesh.nodes[edge.ends[1]];
+    const ClosestPoint nearest = scan.closest((a + b) / 2, hint);
+    hint = nearest.triangle;
+    const bool is_near = nearest.squared_distance <= farthest_of_edge * farthest_of_edge * (b - a).squaredNorm();
+    to.edges.push_back(edge.ends);
+    to.places.push_back(is_near ? nearest.point : Vec3((a + b) / 2));
   }
+  return to;
+}
 
-  // Straightening an element may leave a neighbour one-sided, so until nothing changes. Straight elements are valid.
+namespace {
+
+// Nodes of poor elements are eased all at once, so that the outcome does not depend on an order. An eased node may make
+// a neighbour poor whose other nodes stay, so until none is: straight elements are good. Returns how often each was.
+std::vector<int> ease(TetMesh& mesh, const std::vector<Vec3>& straight, std::vector<std::uint32_t> suspects) {
+  std::vector<int> easings(mesh.nodes.size(), 0);
+  const auto may_ease = [&](std::uint32_t v) { return easings[v] < most_easings && mesh.nodes[v] != straight[v]; };
+  std::vector<std::vector<std::uint32_t>> around(mesh.nodes.size());
+  for (const std::uint32_t t : suspects)
+    for (const std::uint32_t v : mesh.mid_edge_nodes[t]) around[v].push_back(t);
+  while (!suspects.empty()) {
+    std::vector<std::uint32_t> eased;
+    for (const std::uint32_t t : suspects)
+      if (curved_quality(mesh, t) < 1)
+        std::ranges::copy_if(mesh.mid_edge_nodes[t], std::back_inserter(eased), may_ease);
+    sort_and_unique(eased);
+    suspects.clear();
+    for (const std::uint32_t v : eased) {
+      Vec3& place = mesh.nodes[v];
+      place = ++easings[v] < most_easings ? Vec3(straight[v] + easing * (place - straight[v])) : straight[v];
+      suspects.insert(suspects.end(), around[v].begin(), around[v].end());
+    }
+    sort_and_unique(suspects);
+  }
+  return easings;
+}
+
+}  // namespace
+
+CurveResult curve_mid_edge_nodes(TetMesh& mesh, EdgePlaces& to) {
+  const std::vector<Vec3> straight = mesh.nodes;
+  std::vector<std::uint32_t> node_of_place(to.places.size(), no_node);
+  std::vector<bool> held(mesh.nodes.size(), false);
+  for (const BoundaryEdge& edge : boundary_edges(mesh)) {
+    held[edge.node] = true;
+    const auto at = std::lower_bound(to.edges.begin(), to.edges.end(), edge.ends);
+    if (at == to.edges.end() || *at != edge.ends) continue;
+    const auto e = static_cast<std::size_t>(at - to.edges.begin());
+    node_of_place[e] = edge.node;
+    mesh.nodes[edge.node] = to.places[e];
+  }
+  std::vector<std::uint32_t> poor;
+  for (std::uint32_t t = 0; t < mesh.tetrahedra.size(); ++t)
+    if (std::ranges::any_of(mesh.mid_edge_nodes[t], [&](std::uint32_t v) { return held[v]; }) &&
+        curved_quality(mesh, t) < 1)
+      poor.push_back(t);
+  relocate_mid_edge_nodes(mesh, poor, held, 1);
   std::vector<std::uint32_t> suspects;
   for (std::uint32_t t = 0; t < mesh.tetrahedra.size(); ++t)
-    if (std::any_of(mesh.mid_edge_nodes[t].begin(), mesh.mid_edge_nodes[t].end(), [&](auto v) { return curved[v]; }))
+    if (std::ranges::any_of(mesh.mid_edge_nodes[t], [&](auto v) { return mesh.nodes[v] != straight[v]; }))
       suspects.push_back(t);
-  for (bool changed = true; changed;) {
-    changed = false;
-    result.least_jacobian = 1;
-    for (const std::uint32_t t : suspects) {
-      const double least = least_jacobian(mesh, t);
-      if (least >= options.least_jacobian) {
-        result.least_jacobian = std::min(result.least_jacobian, least);
-        continue;
-      }
-      for (std::size_t e = 0; e < 6; ++e) {
-        const std::uint32_t v = mesh.mid_edge_nodes[t][e];
-        if (!curved[v]) continue;
-        const auto [a, b] = tetrahedron_edges[e];
-        mesh.nodes[v] = (mesh.nodes[mesh.tetrahedra[t][static_cast<std::size_t>(a)]] +
-                         mesh.nodes[mesh.tetrahedra[t][static_cast<std::size_t>(b)]]) /
-                        2;
-        curved[v] = false;
-        changed = true;
-        ++result.invalid;
-      }
-    }
+  const std::vector<int> easings = ease(mesh, straight, suspects);
+
+  CurveResult result;
+  for (std::size_t e = 0; e < to.places.size(); ++e) {
+    const std::uint32_t v = node_of_place[e];
+    if (v == no_node) continue;
+    to.places[e] = mesh.nodes[v];
+    const double moved = (mesh.nodes[v] - straight[v]).norm();
+    result.curved += moved > 0;
+    result.eased += easings[v] > 0;
+    result.largest_displacement = std::max(result.largest_displacement, moved);
   }
-  for (const BoundaryEdge& edge : edges)
-    if (curved[edge.node]) {
-      ++result.curved;
-      result.largest_displacement =
-          std::max(result.largest_displacement, (mesh.nodes[edge.node] - edge.straight).norm());
-    }
+  for (const std::uint32_t t : suspects)
+    result.least_scaled_jacobian =
+        std::min(result.least_scaled_jacobian, curved_scaled_jacobian(curved_tetrahedron(mesh, t)));
+  result.tetrahedra = mesh.tetrahedra.size();
+  result.nodes = mesh.nodes.size();
   result.volume = total_volume(mesh);
   return result;
 }

@@ -7,6 +7,7 @@
 #include "preproc/surface/features/scan_noise.hpp"
 #include "preproc/surface/kernel/adjacency.hpp"
 #include "preproc/surface/kernel/components.hpp"
+#include "preproc/surface/simplification/surface_on_scan.hpp"
 #include "preproc/surface/simplification/surface_search.hpp"
 #include "preproc/surface/sizing/split_long_edges.hpp"
 #include "quality/triangle_measures.hpp"
@@ -174,6 +175,7 @@ SimplifyResult Simplification::State::result(Candidate candidate, SurfaceMesh& s
     result.size_remark = "triangles of the wanted size cannot be well shaped everywhere: made " +
                          std::to_string(candidate.faces()) + " instead of " +
                          std::to_string(std::lround(wanted_triangles));
+  result.on_scan = std::make_shared<const SurfaceOnScan>(std::move(candidate.scan), std::move(candidate.net));
   surface = std::move(candidate.mesh);
   return result;
 }
@@ -251,9 +253,14 @@ double Simplification::way_off() const {
   return state_->search->way_off();
 }
 
+FittedCurves Simplification::curved(const SimplifyResult& result, const SurfaceMesh& surface, bool keep_corners) const {
+  return fit_curves(surface, result.on_scan->net, result.on_scan->scan->reference(), keep_corners);
+}
+
 SimplifyResult simplify(SurfaceMesh& mesh, const SimplifyOptions& options, const Progress& progress) {
   SurfaceMesh surface;
   SimplifyResult result = Simplification(mesh, options).run(surface, progress);
+  result.on_scan.reset();  // it refers to what is gone
   mesh = std::move(surface);
   return result;
 }

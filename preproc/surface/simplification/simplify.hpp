@@ -5,6 +5,7 @@
 
 #include "preproc/mesh/progress.hpp"
 #include "preproc/mesh/surface_mesh.hpp"
+#include "preproc/surface/curved/fit_curves.hpp"
 #include "preproc/surface/simplification/simplify_options.hpp"
 #include "preproc/surface/sizing/shorter_edges.hpp"
 
@@ -46,6 +47,9 @@ class Simplification {
   std::vector<bool> held() const;
   // How far its other vertices may go off it: as far as it is from the scan, where no deviation was asked for.
   double way_off() const;
+
+  // Curved triangles of one of these surfaces, by its result; see fit_curves.hpp.
+  FittedCurves curved(const SimplifyResult& result, const SurfaceMesh& surface, bool keep_corners = false) const;
 
  private:
   struct State;

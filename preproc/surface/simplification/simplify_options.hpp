@@ -9,6 +9,7 @@
 #include "preproc/surface/sizing/sizing_field.hpp"
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -67,6 +68,8 @@ struct SimplifyOptions {
   CollapseOptions collapse;  // objective, placement and cost of the `collapse` method; its face count is set by `size`
 };
 
+struct SurfaceOnScan;
+
 struct SimplifyResult {
   SimplifyMethod method = SimplifyMethod::lattice;  // the one that made the result
   std::string fallback_reason;                      // why `lattice` gave way to `collapse`; empty where it did not
@@ -81,9 +84,10 @@ struct SimplifyResult {
   FeatureLines features;                                // the creases of the scan that were to be kept
   // Where triangles of the wanted size are too large for the features: how that was settled; empty where it was not so.
   std::string feature_remark;
-  std::string size_remark;              // where more triangles were made than were asked for
-  std::size_t feature_edges_kept = 0;   // edges of the result that stand for creases and borders
-  std::vector<FeatureEdge> line_edges;  // these edges, and those that stand for lines; sorted
+  std::string size_remark;                       // where more triangles were made than were asked for
+  std::size_t feature_edges_kept = 0;            // edges of the result that stand for creases and borders
+  std::vector<FeatureEdge> line_edges;           // these edges, and those that stand for lines; sorted
+  std::shared_ptr<const SurfaceOnScan> on_scan;  // for Simplification::curved; of `simplify`, none
 };
 
 }  // namespace scan2fea

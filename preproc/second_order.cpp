@@ -1,0 +1,68 @@
+#include "preproc/second_order.hpp"
+
+#include "preproc/mesh/error.hpp"
+#include "preproc/surface/curved/keep_curved_volume.hpp"
+#include "preproc/volume/two_sided_elements.hpp"
+
+#include <algorithm>
+
+namespace scan2fea {
+namespace {
+
+bool filled_anew(const SurfaceMesh& surface, const TetrahedralizeOptions& tetrahedralization, FilledSurface& made,
+                 const Progress& progress) {
+  try {
+    made.filled = tetrahedralize(surface, tetrahedralization, progress);
+    return true;
+  } catch (const MeshingFailed&) {
+    return false;
+  } catch (const NotMeshable&) {
+    return false;
+  }
+}
+
+// Nodes that are eased change the volume a little, which the other nodes of edges take up: by so little that no element
+// suffers. (Corners would count for nothing: their shape functions' integrals are zero.)
+CurveResult curve(FittedCurves& fitted, TetMesh& mesh) {
+  add_mid_edge_nodes(mesh);
+  EdgePlaces to{fitted.surface.edges, fitted.surface.mid};
+  CurveResult result = curve_mid_edge_nodes(mesh, to);
+  if (result.eased == 0) return result;
+  const std::size_t corners = fitted.surface.corners.vertices.size();
+  std::fill_n(fitted.directions.begin(), corners, Vec3::Zero());
+  for (std::size_t e = 0; e < to.places.size(); ++e)
+    if (fitted.surface.mid[e] != to.places[e]) fitted.directions[corners + e].setZero();
+  fitted.surface.mid = std::move(to.places);
+  keep_curved_volume(fitted.surface, fitted.volumes, fitted.directions);
+  for (std::size_t f = 0; f < mesh.boundary.size(); ++f) {
+    const Triangle nodes = boundary_mid_edge_nodes(mesh, mesh.boundary[f]);
+    const Triangle own = boundary_triangle(mesh, mesh.boundary[f]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const FeatureEdge edge = feature_edge(own[k], own[(k + 1) % 3]);
+      const auto at = std::lower_bound(to.edges.begin(), to.edges.end(), edge);
+      mesh.nodes[nodes[k]] = fitted.surface.mid[static_cast<std::size_t>(at - to.edges.begin())];
+    }
+  }
+  result.volume = total_volume(mesh);
+  return result;
+}
+
+}  // namespace
+
+SecondOrderResult make_second_order(const Simplification& search, const TetrahedralizeOptions& tetrahedralization,
+                                    FilledSurface& made, const Progress& progress) {
+  SecondOrderResult result;
+  FittedCurves fitted = search.curved(made.simplified, made.surface);
+  if (!filled_anew(fitted.surface.corners, tetrahedralization, made, progress)) {
+    result.corners_kept = true;
+    fitted = search.curved(made.simplified, made.surface, true);
+  }
+  result.straight_triangles = fitted.straight;
+  result.parted_elements =
+      part_two_sided_elements(made.filled.mesh, fitted.surface.corners.vertices.size(), made.simplified.line_edges);
+  result.curved = curve(fitted, made.filled.mesh);
+  made.surface = std::move(fitted.surface.corners);
+  return result;
+}
+
+}  // namespace scan2fea

@@ -1,0 +1,63 @@
+// A surface of six-node triangles: straight corners, and a node near the middle of every edge.
+#pragma once
+
+#include "preproc/mesh/surface_mesh.hpp"
+#include "preproc/surface/kernel/adjacency.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace scan2fea {
+
+// Of one triangle: corners, then the nodes between 12, 23 and 31.
+using QuadraticPatch = std::array<Vec3, 6>;
+
+// The shape functions, and so the position at barycentric coordinates: sum N_i x_i.
+std::array<double, 6> shape_functions(const std::array<double, 3>& barycentric);
+
+// Derivatives of the position by the second and the third barycentric coordinate, the first being the rest.
+std::array<Vec3, 2> tangents(const QuadraticPatch& x, const std::array<double, 3>& barycentric);
+
+Vec3 point_on(const QuadraticPatch& x, const std::array<double, 3>& barycentric);
+
+struct CurvedSurface {
+  SurfaceMesh corners;
+  std::vector<FeatureEdge> edges;     // sorted
+  std::vector<Vec3> mid;              // one per edge
+  std::vector<Triangle> mid_of_face;  // per triangle the edges 12, 23, 31
+
+  // Of straight edges. O(n log n).
+  explicit CurvedSurface(SurfaceMesh surface);
+  CurvedSurface() = default;
+
+  QuadraticPatch triangle(std::size_t face) const;
+  // Corners first, then the nodes of the edges: the numbers that the fit works with.
+  std::size_t nodes() const { return corners.vertices.size() + mid.size(); }
+  std::array<std::size_t, 6> nodes_of(std::size_t face) const;
+  Vec3& node(std::size_t i) {
+    return i < corners.vertices.size() ? corners.vertices[i] : mid[i - corners.vertices.size()];
+  }
+  const Vec3& node(std::size_t i) const {
+    return i < corners.vertices.size() ? corners.vertices[i] : mid[i - corners.vertices.size()];
+  }
+  // Half-way between the ends of an edge.
+  Vec3 middle(std::size_t edge) const;
+};
+
+// Enclosed by these faces of a closed surface, about `centre`; exact, by a rule of degree four.
+double curved_volume(const CurvedSurface& surface, const std::vector<std::uint32_t>& faces, const Vec3& centre);
+
+// The derivative of the enclosed volume by the place of each node.
+std::vector<Vec3> volume_gradient(const CurvedSurface& surface);
+
+// Each triangle as four plane ones: what stands for the surface where it is asked for neighbours and crossings.
+// Vertices are numbered as the nodes are; triangles 4 f to 4 f + 3 are of face f, at its three corners and in its
+// middle.
+SurfaceMesh in_four(const CurvedSurface& surface);
+
+// The place on a face of a place on one of its four.
+std::array<double, 3> in_whole(std::size_t quarter, const std::array<double, 3>& barycentric);
+
+}  // namespace scan2fea

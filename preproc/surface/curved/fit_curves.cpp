@@ -1,0 +1,117 @@
+#include "preproc/surface/curved/fit_curves.hpp"
+
+#include "preproc/surface/curved/curve_fitter.hpp"
+#include "preproc/surface/curved/keep_curved_volume.hpp"
+#include "preproc/surface/kernel/cut_surface.hpp"
+#include "quality/self_intersections.hpp"
+#include "quality/triangle_measures.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace scan2fea {
+namespace {
+
+// The third changes the RMS distance by less than a hundredth.
+constexpr int rounds = 3;
+// A node of an edge that would have to go farther to its line belongs to another place of it.
+constexpr double farthest_on_line = 0.25;
+constexpr double least_angle_deg = 30;
+
+// Corners along their normals, nodes of edges along that of both faces.
+std::vector<Vec3> directions_of(const CurvedSurface& surface, bool keep_corners) {
+  std::vector<Vec3> directions = vertex_normals(surface.corners);
+  if (keep_corners) std::fill(directions.begin(), directions.end(), Vec3::Zero());
+  directions.resize(surface.nodes(), Vec3::Zero());
+  for (std::size_t f = 0; f < surface.corners.triangles.size(); ++f)
+    for (std::size_t k = 3; k < 6; ++k)
+      directions[surface.nodes_of(f)[k]] += area_vector(surface.corners, surface.corners.triangles[f]);
+  for (std::size_t i = surface.corners.vertices.size(); i < directions.size(); ++i) directions[i].normalize();
+  return directions;
+}
+
+// Nodes on lines go to them, and stay there.
+void place_lines(CurvedSurface& surface, const FeatureNet& net, bool keep_corners, std::vector<Vec3>& directions) {
+  for (const FeatureLine& line : net.lines)
+    for (const VertexOnLine& at : line.vertices) {
+      directions[at.vertex].setZero();
+      if (!keep_corners) surface.corners.vertices[at.vertex] = line.point_at(at.place);
+    }
+  for (std::size_t e = 0; e < surface.edges.size(); ++e) surface.mid[e] = surface.middle(e);
+  for (const LineEdge& piece : line_edges(net)) {
+    const auto at = std::lower_bound(surface.edges.begin(), surface.edges.end(), piece.edge());
+    const auto e = static_cast<std::size_t>(at - surface.edges.begin());
+    const FeatureLine& line = net.lines[piece.line];
+    const Vec3 on_line = line.point_at(middle_place(line, piece.from_place, piece.to_place));
+    const double length = (surface.corners.vertices[piece.from] - surface.corners.vertices[piece.to]).norm();
+    directions[surface.corners.vertices.size() + e].setZero();
+    if ((on_line - surface.mid[e]).norm() <= farthest_on_line * length) surface.mid[e] = on_line;
+  }
+}
+
+CurvedSurface cut_open(const SurfaceMesh& surface, const FeatureNet& net) {
+  return CurvedSurface(cut_along(surface, edges_of(net)).mesh);
+}
+
+bool is_needle(const SurfaceMesh& mesh, const Triangle& t, double least_deg) {
+  const auto shape = measure_triangle(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
+  return !shape || shape->min_angle_deg < least_deg;
+}
+
+// Faces that meet others, and those whose corners went where they make a needle.
+std::vector<std::uint32_t> spoilt_faces(const CurvedSurface& surface, const SurfaceMesh& straight) {
+  std::vector<std::uint32_t> faces;
+  for (const FacePair& pair : find_self_intersections(in_four(surface)))
+    faces.insert(faces.end(), {pair.face / 4, pair.other / 4});
+  for (const FacePair& pair : find_self_intersections(surface.corners))
+    faces.insert(faces.end(), {pair.face, pair.other});
+  for (std::uint32_t f = 0; f < straight.triangles.size(); ++f)
+    if (is_needle(surface.corners, straight.triangles[f], least_angle_deg) &&
+        !is_needle(straight, straight.triangles[f], least_angle_deg))
+      faces.push_back(f);
+  std::sort(faces.begin(), faces.end());
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  return faces;
+}
+
+// With the volume, where spoilt faces are straight as they were.
+void settle(FittedCurves& fitted, const CurvedSurface& straight) {
+  constexpr int trials = 10;
+  for (int trial = 0; trial < trials; ++trial) {
+    CurvedSurface shifted = fitted.surface;
+    keep_curved_volume(shifted, fitted.volumes, fitted.directions);
+    const std::vector<std::uint32_t> spoilt = spoilt_faces(shifted, straight.corners);
+    if (spoilt.empty()) {
+      fitted.surface = std::move(shifted);
+      return;
+    }
+    fitted.straight += spoilt.size();
+    for (const std::uint32_t f : spoilt)
+      for (const std::size_t i : straight.nodes_of(f)) {
+        fitted.surface.node(i) = straight.node(i);
+        fitted.directions[i].setZero();
+      }
+  }
+  fitted.straight = straight.corners.triangles.size();
+  fitted.surface = straight;
+  std::fill(fitted.directions.begin(), fitted.directions.end(), Vec3::Zero());
+}
+
+}  // namespace
+
+FittedCurves fit_curves(const SurfaceMesh& surface, const FeatureNet& net, const ReferenceSurface& scan,
+                        bool keep_corners) {
+  const CurvedSurface straight(surface);
+  FittedCurves fitted{.surface = straight, .directions = {}, .volumes = volumes_of_components(surface)};
+  fitted.directions = directions_of(fitted.surface, keep_corners);
+  place_lines(fitted.surface, net, keep_corners, fitted.directions);
+  {
+    CurvedSurface cut = cut_open(surface, net);
+    CurveFitter fitter(fitted.surface, cut, net.patch_of_face, scan);
+    for (int round = 0; round < rounds; ++round) fitter.step(fitted.directions);
+  }
+  settle(fitted, straight);
+  return fitted;
+}
+
+}  // namespace scan2fea

@@ -1,0 +1,151 @@
+#include "preproc/surface/curved/fit_curves.hpp"
+
+#include "preproc/surface/curved/keep_curved_volume.hpp"
+#include "preproc/surface/simplification/simplify.hpp"
+#include "quality/self_intersections.hpp"
+#include "quality/triangle_measures.hpp"
+#include "tests/analytic_meshes.hpp"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace scan2fea {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+double volume_of(const CurvedSurface& surface) {
+  std::vector<std::uint32_t> all(surface.corners.triangles.size());
+  std::iota(all.begin(), all.end(), 0U);
+  return curved_volume(surface, all, Vec3::Zero());
+}
+
+// Of nine points of each triangle, by a function of the place; weights as areas would be almost alike.
+template <class Distance>
+double rms(const CurvedSurface& surface, const Distance& distance) {
+  double sum = 0;
+  std::size_t count = 0;
+  for (std::size_t f = 0; f < surface.corners.triangles.size(); ++f)
+    for (int i = 1; i < 6; ++i)
+      for (int j = 1; i + j < 6; ++j, ++count) {
+        const double b = i / 6.0, c = j / 6.0;
+        sum += std::pow(distance(point_on(surface.triangle(f), {1 - b - c, b, c})), 2);
+      }
+  return std::sqrt(sum / static_cast<double>(count));
+}
+
+struct Made {
+  SurfaceMesh straight;
+  FittedCurves curves;
+};
+
+Made fitted(const SurfaceMesh& scan, std::size_t faces) {
+  SimplifyOptions options;
+  options.size = FaceCount{faces};
+  Made made;
+  Simplification simplification(scan, options);
+  const SimplifyResult result = simplification.run(made.straight);
+  made.curves = simplification.curved(result, made.straight);
+  return made;
+}
+
+TEST(CurvedSurface, OfStraightEdgesIsTheSurface) {
+  const SurfaceMesh box = analytic::box({1, 2, 3}, 0.5);
+  const CurvedSurface curved(box);
+  EXPECT_NEAR(volume_of(curved), 6, 1e-12);
+  EXPECT_EQ(curved.edges.size(), box.triangles.size() * 3 / 2);
+  EXPECT_NEAR(enclosed_volume(in_four(curved)), 6, 1e-12);
+}
+
+TEST(CurvedSurface, VolumeGradientIsThatOfTheVolume) {
+  CurvedSurface curved(analytic::sphere(1, 1));
+  for (Vec3& p : curved.mid) p *= 1.03;
+  const std::vector<Vec3> gradient = volume_gradient(curved);
+  for (const std::size_t i : {std::size_t{3}, curved.corners.vertices.size() + 7})
+    for (int k = 0; k < 3; ++k) {
+      CurvedSurface moved = curved;
+      const double step = 1e-5;
+      moved.node(i)[k] += step;
+      const double ahead = volume_of(moved);
+      moved.node(i)[k] -= 2 * step;
+      EXPECT_NEAR((ahead - volume_of(moved)) / (2 * step), gradient[i][k], 1e-8);
+    }
+}
+
+TEST(CurvedSurface, PlacesOnAQuarterAreThoseOnTheWhole) {
+  CurvedSurface curved(analytic::sphere(1, 0));
+  const SurfaceMesh fine = in_four(curved);  // straight: both are on the same plane
+  for (std::size_t q = 0; q < 4; ++q) {
+    const std::array<double, 3> b{0.5, 0.3, 0.2};
+    Vec3 on_quarter = Vec3::Zero();
+    for (std::size_t k = 0; k < 3; ++k) on_quarter += b[k] * fine.vertices[fine.triangles[20 + q][k]];
+    EXPECT_NEAR((on_quarter - point_on(curved.triangle(5), in_whole(q, b))).norm(), 0, 1e-14);
+  }
+}
+
+// The third power of the edge or better: four times the triangles, an eighth of the error.
+TEST(FitCurves, OnATorusTheErrorFallsWithTheThirdPower) {
+  const SurfaceMesh scan = analytic::torus(3, 1, 300, 120);
+  const double facets = 1 - std::cos(pi / 120);  // the scan's own, at the most
+  const auto distance = [](const Vec3& p) { return std::hypot(std::hypot(p.x(), p.y()) - 3, p.z()) - 1; };
+  const Made coarse = fitted(scan, 500), fine = fitted(scan, 2000);
+  const double error = rms(coarse.curves.surface, distance);
+  EXPECT_LT(error, 0.1 * rms(CurvedSurface(coarse.straight), distance));
+  EXPECT_LT(rms(fine.curves.surface, distance), error / 8 + facets);
+}
+
+TEST(FitCurves, KeepsTheVolumeToRounding) {
+  const SurfaceMesh scan = analytic::sphere(1, 5);
+  const Made made = fitted(scan, 800);
+  EXPECT_NEAR(volume_of(made.curves.surface) / enclosed_volume(scan), 1, 1e-9);
+  EXPECT_EQ(made.curves.straight, 0U);
+}
+
+// The middle of a rim's chord lies in the end face, which is no farther from it than nothing.
+TEST(FitCurves, NodesOfARimLieOnItsLine) {
+  const Made made = fitted(analytic::cylinder(1, 2, 160, 60), 1500);
+  const CurvedSurface& surface = made.curves.surface;
+  std::size_t on_rim = 0;
+  for (std::size_t e = 0; e < surface.edges.size(); ++e) {
+    const auto is_on_rim = [&](const Vec3& p) { return std::abs(p.z() - 2) < 1e-6 && p.head<2>().norm() > 0.99; };
+    const auto [a, b] = surface.edges[e];
+    if (!is_on_rim(surface.corners.vertices[a]) || !is_on_rim(surface.corners.vertices[b])) continue;
+    ++on_rim;
+    EXPECT_NEAR(surface.mid[e].z(), 2, 1e-9);
+    EXPECT_NEAR(surface.mid[e].head<2>().norm(), 1, 3e-4);  // the scan's chords are 2e-4 inside
+  }
+  EXPECT_GE(on_rim, 20U);
+  // And what is plane stays plane.
+  for (std::size_t f = 0; f < surface.corners.triangles.size(); ++f) {
+    const QuadraticPatch x = surface.triangle(f);
+    if (!std::all_of(x.begin(), x.begin() + 3, [](const Vec3& p) { return std::abs(p.z() - 2) < 1e-6; })) continue;
+    for (const Vec3& p : x) EXPECT_NEAR(p.z(), 2, 1e-9);
+  }
+}
+
+TEST(FitCurves, NoTwoTrianglesMeetInAThinFold) {
+  // A plate whose thickness is a third of an edge, bent.
+  SurfaceMesh plate = analytic::box({4, 4, 0.1}, 0.05);
+  for (Vec3& p : plate.vertices) p.z() += 0.4 * std::sin(1.5 * p.x());
+  const Made made = fitted(plate, 1200);
+  ASSERT_TRUE(find_self_intersections(made.straight).empty());
+  EXPECT_TRUE(find_self_intersections(in_four(made.curves.surface)).empty());
+  EXPECT_NEAR(volume_of(made.curves.surface) / enclosed_volume(plate), 1, 1e-9);
+}
+
+TEST(FitCurves, TheSameForAnyNumberOfThreads) {
+  const SurfaceMesh scan = analytic::torus(3, 1, 120, 48);
+  const auto nodes_with = [&](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    return fitted(scan, 600).curves.surface.mid;
+  };
+  EXPECT_EQ(nodes_with(1), nodes_with(4));
+}
+
+}  // namespace
+}  // namespace scan2fea
