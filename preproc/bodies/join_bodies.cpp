@@ -1,0 +1,287 @@
+#include "preproc/bodies/body_complex.hpp"
+#include "preproc/bodies/contact_border.hpp"
+#include "preproc/bodies/contact_faces.hpp"
+#include "preproc/bodies/facing_surface.hpp"
+#include "preproc/bodies/imprint.hpp"
+#include "preproc/bodies/split_surface.hpp"
+#include "preproc/mesh/error.hpp"
+#include "preproc/mesh/error_text.hpp"
+#include "preproc/volume/inside_test.hpp"
+#include "quality/self_intersections.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace scan2fea {
+namespace {
+
+// Up to so many tolerances a gap may be one that was to be closed.
+constexpr double doubtful_gap = 10;
+constexpr double rounding = 1e-6;           // of the diagonal
+constexpr double shortest_contact = 0.005;  // along a rim, of the diagonal
+
+std::vector<std::uint32_t> all_of(const SurfaceMesh& mesh) {
+  std::vector<std::uint32_t> all(mesh.triangles.size());
+  for (std::uint32_t f = 0; f < all.size(); ++f) all[f] = f;
+  return all;
+}
+
+bool are_apart(const BoundingBox& a, const BoundingBox& b, double distance) {
+  return (a.low.array() > b.high.array() + distance).any() || (b.low.array() > a.high.array() + distance).any();
+}
+
+// Adds one body to those that are joined already.
+class Join {
+ public:
+  Join(BodyComplex& complex, std::span<const Body> bodies, std::uint32_t added, const JoinOptions& options)
+      : complex_(complex), bodies_(bodies), added_(added), options_(options), body_(bodies[added].surface) {
+    for (std::uint32_t f = 0; f < complex.sides.size(); ++f)
+      if (complex.sides[f].front == no_body) outer_.push_back(f);
+    fuzz_ =
+        rounding * std::max(bounding_box(complex.mesh.vertices).diagonal(), bounding_box(body_.vertices).diagonal());
+  }
+
+  void run() {
+    const std::vector<std::uint32_t> own = all_of(body_);
+    tolerance_ = options_.tolerance.value_or(contact_tolerance(complex_.mesh, outer_, body_, own));
+    const FacingSurface on_complex(complex_.mesh, outer_, fuzz_), on_body(body_, own, fuzz_);
+    const double step = shortest_contact * bounding_box(body_.vertices).diagonal();
+    refuse_overlap();
+    if (!options_.tolerance) refuse_gaps(on_complex, on_body);
+    SplitSurface first(complex_.mesh), second(body_);
+    imprint_rims(first, on_complex, body_, own, tolerance_, step);
+    imprint_rims(second, on_body, complex_.mesh, outer_, tolerance_, step);
+    glue(first, second, on_complex, on_body);
+  }
+
+ private:
+  [[noreturn]] void fail(std::string what, double value, std::string advice, const Vec3& place,
+                         std::uint32_t other) const {
+    throw NotMeshable({.what = std::move(what),
+                       .where = bodies_[other].name + " and " + bodies_[added_].name,
+                       .value = error_text(value),
+                       .limit = error_text(tolerance_),
+                       .advice = std::move(advice),
+                       .at = place});
+  }
+
+  // Vertices of one that lie deeper in the other.
+  void refuse_overlap() const {
+    SurfaceMesh outer{complex_.mesh.vertices, {}};
+    for (const std::uint32_t f : outer_) outer.triangles.push_back(complex_.mesh.triangles[f]);
+    const BoundingBox own_box = bounding_box(body_.vertices), box = bounding_box(outer.vertices);
+    if (are_apart(own_box, box, 0)) return;
+    const InsideTest in_complex(outer), in_body(body_);
+    double deepest = tolerance_;
+    Vec3 place;
+    std::uint32_t other = no_body;
+    for (const Vec3& p : body_.vertices) {
+      const InsideTest::Answer answer = in_complex(p);
+      if (!answer.inside || answer.distance <= deepest) continue;
+      deepest = answer.distance;
+      place = p;
+      other = complex_.sides[outer_[answer.triangle]].behind;
+    }
+    for (const std::uint32_t f : outer_)
+      for (const std::uint32_t v : complex_.mesh.triangles[f]) {
+        const Vec3& p = complex_.mesh.vertices[v];
+        if (const InsideTest::Answer answer = in_body(p); answer.inside && answer.distance > deepest) {
+          deepest = answer.distance;
+          place = p;
+          other = complex_.sides[f].behind;
+        }
+      }
+    if (other != no_body) fail_overlap(deepest, place, other);
+  }
+
+  [[noreturn]] void fail_overlap(double depth, const Vec3& place, std::uint32_t other) const {
+    fail("the bodies overlap", depth, "--contact " + error_text(1.01 * depth) + ", or move them apart", place, other);
+  }
+
+  // Of the middles and corners of the body's triangles, and the middles of the others'.
+  void refuse_gaps(const FacingSurface& on_complex, const FacingSurface& on_body) const {
+    const double reach = doubtful_gap * tolerance_;
+    double largest = tolerance_;
+    Vec3 place;
+    std::uint32_t other = no_body;
+    const auto look = [&](const Vec3& p, const std::optional<Foot>& foot, std::uint32_t behind) {
+      if (!foot || foot->height <= largest) return;
+      largest = foot->height;
+      place = p;
+      other = behind;
+    };
+    for (std::uint32_t f = 0; f < body_.triangles.size(); ++f) {
+      const Triangle& t = body_.triangles[f];
+      for (const Vec3& p : {centroid(body_, t), body_.vertices[t[0]], body_.vertices[t[1]], body_.vertices[t[2]]}) {
+        const auto foot = on_complex.under(p, on_body.normal(f), reach);
+        look(p, foot, foot ? complex_.sides[foot->triangle].behind : no_body);
+      }
+    }
+    for (const std::uint32_t f : outer_) {
+      const Vec3 p = centroid(complex_.mesh, complex_.mesh.triangles[f]);
+      look(p, on_body.under(p, on_complex.normal(f), reach), complex_.sides[f].behind);
+    }
+    if (other != no_body)
+      fail("there is a gap between the bodies", largest,
+           "--contact " + error_text(1.01 * largest) + " to close it, --contact " + error_text(tolerance_) +
+               " to leave it",
+           place, other);
+  }
+
+  void glue(SplitSurface& first, SplitSurface& second, const FacingSurface& on_complex, const FacingSurface& on_body) {
+    std::vector<bool> outer(first.mesh().triangles.size());
+    for (std::uint32_t f = 0; f < outer.size(); ++f) outer[f] = complex_.sides[first.origin(f)].front == no_body;
+    const std::vector<bool> own(second.mesh().triangles.size(), true);
+    std::vector<bool> of_first = contact_faces(first, outer, on_complex, on_body, tolerance_);
+    std::vector<bool> of_second = contact_faces(second, own, on_body, on_complex, tolerance_);
+    note_contacts(second, of_second, on_complex, on_body);
+    const auto border = border_of_marked(first.mesh(), outer, of_first);
+    const auto border_of_second = border_of_marked(second.mesh(), own, of_second);
+    if (border.empty() != border_of_second.empty()) fail_unclear(first, border, second, border_of_second);
+    const std::vector<std::uint32_t> image = match_borders(first, border, second, border_of_second, tolerance_);
+    // What the borders' new vertices have split.
+    for (auto f = static_cast<std::uint32_t>(of_first.size()); f < first.mesh().triangles.size(); ++f)
+      of_first.push_back(of_first[first.split_from(f)]);
+    for (auto f = static_cast<std::uint32_t>(of_second.size()); f < second.mesh().triangles.size(); ++f)
+      of_second.push_back(of_second[second.split_from(f)]);
+    take(first, of_first, second, of_second, image);
+  }
+
+  [[noreturn]] void fail_unclear(const SplitSurface& first, const std::vector<FeatureEdge>& border,
+                                 const SplitSurface& second, const std::vector<FeatureEdge>& other) const {
+    const Vec3 place = border.empty() ? second.point(other.front()[0]) : first.point(border.front()[0]);
+    throw NotMeshable({.what = "the bodies touch, but it is not clear where",
+                       .where = bodies_[added_].name,
+                       .value = {},
+                       .limit = {},
+                       .advice = "another --contact",
+                       .at = place});
+  }
+
+  void note_contacts(const SplitSurface& second, const std::vector<bool>& of_second, const FacingSurface& on_complex,
+                     const FacingSurface& on_body) {
+    std::map<std::uint32_t, Contact> contacts;
+    for (std::uint32_t f = 0; f < of_second.size(); ++f) {
+      if (!of_second[f]) continue;
+      const Triangle& t = second.triangle(f);
+      const Vec3 middle = centroid(second.mesh(), t);
+      for (const Vec3& p : {middle, second.point(t[0]), second.point(t[1]), second.point(t[2])}) {
+        const auto foot = on_complex.under(p, on_body.normal(second.origin(f)), tolerance_);
+        if (!foot) continue;
+        Contact& contact = contacts[complex_.sides[foot->triangle].behind];
+        if (std::abs(foot->height) > std::max(contact.largest_gap, contact.largest_overlap)) contact.at = p;
+        contact.largest_gap = std::max(contact.largest_gap, foot->height);
+        contact.largest_overlap = std::max(contact.largest_overlap, -foot->height);
+      }
+      if (const auto foot = on_complex.under(middle, on_body.normal(second.origin(f)), tolerance_))
+        ++contacts[complex_.sides[foot->triangle].behind].triangles;
+    }
+    for (auto& [other, contact] : contacts) {
+      contact.first = other;
+      contact.second = added_;
+      contact.tolerance = tolerance_;
+      complex_.contacts.push_back(contact);
+    }
+  }
+
+  void take(const SplitSurface& first, const std::vector<bool>& of_first, const SplitSurface& second,
+            const std::vector<bool>& of_second, std::vector<std::uint32_t> image);
+
+  BodyComplex& complex_;
+  std::span<const Body> bodies_;
+  std::uint32_t added_;
+  const JoinOptions& options_;
+  const SurfaceMesh& body_;
+  std::vector<std::uint32_t> outer_;
+  double fuzz_ = 0, tolerance_ = 0;
+};
+
+void Join::take(const SplitSurface& first, const std::vector<bool>& of_first, const SplitSurface& second,
+                const std::vector<bool>& of_second, std::vector<std::uint32_t> image) {
+  std::vector<Sides> sides;
+  for (std::uint32_t f = 0; f < of_first.size(); ++f) {
+    Sides& side = sides.emplace_back(complex_.sides[first.origin(f)]);
+    if (!of_first[f]) continue;
+    side.front = added_;
+    for (Contact& contact : complex_.contacts)
+      if (contact.first == side.behind && contact.second == added_)
+        contact.area += area_vector(first.mesh(), first.triangle(f)).norm() / 2;
+  }
+  SurfaceMesh mesh = first.mesh();
+  for (std::uint32_t f = 0; f < of_second.size(); ++f) {
+    if (of_second[f]) continue;
+    Triangle t = second.triangle(f);
+    for (std::uint32_t& v : t) {
+      if (image[v] == no_image) {
+        image[v] = static_cast<std::uint32_t>(mesh.vertices.size());
+        mesh.vertices.push_back(second.point(v));
+      }
+      v = image[v];
+    }
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
+    mesh.triangles.push_back(t);
+    sides.push_back({.behind = added_, .front = no_body});
+  }
+  complex_.mesh = std::move(mesh);
+  complex_.sides = std::move(sides);
+}
+
+// Each edge once in either direction.
+void require_closed(const BodyComplex& complex, std::uint32_t body, const std::string& name) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;
+  for (const Triangle& t : triangles_of_body(complex, body))
+    for (std::size_t k = 0; k < 3; ++k) ++uses[{t[k], t[(k + 1) % 3]}];
+  for (const auto& [edge, count] : uses) {
+    const auto reverse = uses.find({edge.second, edge.first});
+    if (count == 1 && reverse != uses.end() && reverse->second == 1) continue;
+    throw NotMeshable({.what = "the surface of the body does not close around its contact",
+                       .where = name,
+                       .value = {},
+                       .limit = {},
+                       .advice = "another --contact",
+                       .at = complex.mesh.vertices[edge.first]});
+  }
+}
+
+void require_clear(const BodyComplex& complex, std::span<const Body> bodies) {
+  for (const auto& [face, other] : find_self_intersections(complex.mesh)) {
+    if (face == other) continue;  // a needle of the cuts
+    throw NotMeshable(
+        {.what = "the bodies cross beside their contact",
+         .where = bodies[complex.sides[face].behind].name + " and " + bodies[complex.sides[other].behind].name,
+         .value = {},
+         .limit = {},
+         .advice = "a larger --contact, or move them apart",
+         .at = centroid(complex.mesh, complex.mesh.triangles[face])});
+  }
+}
+
+}  // namespace
+
+BodyComplex join_bodies(std::span<const Body> bodies, const JoinOptions& options) {
+  BodyComplex complex;
+  for (std::uint32_t b = 0; b < bodies.size(); ++b) {
+    if (b == 0) {
+      complex.mesh = bodies[b].surface;
+      complex.sides.assign(complex.mesh.triangles.size(), {.behind = b, .front = no_body});
+      continue;
+    }
+    Join(complex, bodies, b, options).run();
+  }
+  for (std::uint32_t b = 0; b < bodies.size(); ++b) require_closed(complex, b, bodies[b].name);
+  require_clear(complex, bodies);
+  return complex;
+}
+
+std::vector<Triangle> triangles_of_body(const BodyComplex& complex, std::uint32_t body) {
+  std::vector<Triangle> triangles;
+  for (std::size_t f = 0; f < complex.sides.size(); ++f) {
+    const Triangle& t = complex.mesh.triangles[f];
+    if (complex.sides[f].behind == body) triangles.push_back(t);
+    if (complex.sides[f].front == body) triangles.push_back({t[0], t[2], t[1]});
+  }
+  return triangles;
+}
+
+}  // namespace scan2fea
