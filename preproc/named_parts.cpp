@@ -120,4 +120,12 @@ std::vector<bool> domain_of(const SurfaceMesh& scan, const NamedSelection& selec
   return domain;
 }
 
+void measure_sets(PipelineResult& result) {
+  const TetMesh& mesh = *result.volume_mesh;
+  for (std::size_t s = 0; s < result.sets.size(); ++s) {
+    result.sets[s].area = 0;
+    for (const std::uint32_t f : mesh.face_sets[s].members) result.sets[s].area += face_area(mesh, mesh.boundary[f]);
+  }
+}
+
 }  // namespace scan2fea

@@ -29,4 +29,7 @@ void add_set(NamedSet set, std::optional<double> area_of_scan, PipelineResult& r
 std::vector<bool> domain_of(const SurfaceMesh& scan, const NamedSelection& selection, const PipelineOptions& options,
                             const Progress& progress);
 
+// The areas of the result's sets by the faces of its volume mesh.
+void measure_sets(PipelineResult& result);
+
 }  // namespace scan2fea

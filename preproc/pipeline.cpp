@@ -5,6 +5,7 @@
 #include "preproc/named_parts.hpp"
 #include "preproc/second_order.hpp"
 #include "preproc/stage_descriptions.hpp"
+#include "preproc/stage_log.hpp"
 #include "preproc/surface/kernel/canonical_frame.hpp"
 #include "preproc/surface/repair/solid_volume.hpp"
 #include "preproc/surface/simplification/voxel_options.hpp"
@@ -13,51 +14,10 @@
 #include "quality/triangle_tree.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <cstdio>
-#include <fstream>
-#include <sys/resource.h>
 
 namespace scan2fea {
 namespace {
-
-// Linux keeps a high-water mark of resident memory that can be set back, which gives each stage its own peak.
-void restart_peak_memory() {
-  std::ofstream("/proc/self/clear_refs") << 5;
-}
-
-std::uint64_t peak_memory_bytes() {
-  std::ifstream status("/proc/self/status");
-  for (std::string line; std::getline(status, line);) {
-    unsigned long long kilobytes = 0;
-    if (std::sscanf(line.c_str(), "VmHWM: %llu kB", &kilobytes) == 1) return kilobytes * 1024;
-  }
-  return 0;
-}
-
-// Times stages and hands their records on.
-class StageLog {
- public:
-  StageLog(std::vector<StageRecord>& records, const StageListener& listener) : records_(records), listener_(listener) {}
-
-  template <class Work>
-  void run(const std::string& name, Work work) {
-    restart_peak_memory();
-    const auto start = std::chrono::steady_clock::now();
-    StageRecord record;
-    record.name = name;
-    work(record);
-    record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    record.peak_bytes = peak_memory_bytes();
-    records_.push_back(record);
-    if (listener_) listener_(records_.back());
-  }
-
- private:
-  std::vector<StageRecord>& records_;
-  const StageListener& listener_;
-};
 
 // Between two sides whose triangles are as wide as half of the wall there are nodes everywhere only if those inside are
 // about as near to one another.
@@ -74,14 +34,7 @@ std::vector<WeakPlace> checked_for_solvers(const SurfaceMesh& surface, const Tet
   std::vector<WeakPlace> places = find_weak_places(surface, volume_mesh, scan);
   const bool is_told_only =
       !options.tetrahedralize && options.simplify && options.simplify->method == SimplifyMethod::collapse;
-  for (const WeakPlace& place : places)
-    if (place.is_unusable && !is_told_only)
-      throw NotMeshable({.what = "no solver takes the mesh that came out: " + place.what,
-                         .where = {},
-                         .value = std::to_string(place.value),
-                         .limit = "half a degree",
-                         .advice = "smaller triangles (--deviation, --faces), or --feature-angle off",
-                         .at = place.at});
+  if (!is_told_only) refuse_unusable(places);
   return places;
 }
 
@@ -256,14 +209,6 @@ CurveResult curve_on_scan(TetMesh& mesh, const SurfaceMesh& scan) {
   return curve_mid_edge_nodes(mesh, to);
 }
 
-void measure_sets(PipelineResult& result) {
-  const TetMesh& mesh = *result.volume_mesh;
-  for (std::size_t s = 0; s < result.sets.size(); ++s) {
-    result.sets[s].area = 0;
-    for (const std::uint32_t f : mesh.face_sets[s].members) result.sets[s].area += face_area(mesh, mesh.boundary[f]);
-  }
-}
-
 // What the scanner has seen of the repaired scan; nothing where it has seen all of it.
 std::vector<FaceOrigin> origins_of_scan(const PipelineResult& result, const SurfaceMesh* seen) {
   const bool is_repaired =
@@ -327,6 +272,7 @@ void run_stages(SurfaceMesh scan, const SurfaceMesh* seen, const PipelineOptions
                                              result.reference(), options);
   result.surface = std::move(made.surface);
   result.features = std::move(made.simplified.features);
+  result.line_edges = made.simplified.line_edges;
   if (selected) carry_parts(*selected, options, made.simplified, result);
   add_made_up_sets(options.enrich ? enriched : result.scan, origins, result);
   if (options.tetrahedralize) {

@@ -70,6 +70,9 @@ struct PipelineResult {
   std::vector<Primitive> primitives;  // of a part, where enrichment was asked for
   // Of `surface`, where it is an enriched one: so many vertices, the first, were measured.
   std::optional<std::size_t> measured_vertices;
+  // Of `surface`, those that stand for creases and lines of the scan; sorted. None where the simplification was left
+  // out.
+  std::vector<FeatureEdge> line_edges;
   FeatureLines features;               // the scan's edges that simplification was to keep
   std::optional<TetMesh> volume_mesh;  // with the sets
   std::vector<NamedSet> face_sets;     // of `surface`; after those asked for, what was made up (made_up.hpp)

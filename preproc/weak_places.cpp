@@ -1,5 +1,6 @@
 #include "preproc/weak_places.hpp"
 
+#include "preproc/mesh/error.hpp"
 #include "preproc/surface/kernel/adjacency.hpp"
 #include "quality/tetrahedron_measures.hpp"
 #include "quality/triangle_measures.hpp"
@@ -129,6 +130,17 @@ std::vector<WeakPlace> find_weak_places(const SurfaceMesh& surface, const TetMes
                       .limit = large_edge_ratio,
                       .at = ball(worst.longest).centre});
   return places;
+}
+
+void refuse_unusable(const std::vector<WeakPlace>& places) {
+  for (const WeakPlace& place : places)
+    if (place.is_unusable)
+      throw NotMeshable({.what = "no solver takes the mesh that came out: " + place.what,
+                         .where = {},
+                         .value = std::to_string(place.value),
+                         .limit = "half a degree",
+                         .advice = "smaller triangles (--deviation, --faces), or --feature-angle off",
+                         .at = place.at});
 }
 
 }  // namespace scan2fea

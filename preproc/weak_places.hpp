@@ -27,4 +27,7 @@ struct WeakPlace {
 std::vector<WeakPlace> find_weak_places(const SurfaceMesh& surface, const TetMesh* volume_mesh,
                                         const SurfaceMesh& scan);
 
+// Throws NotMeshable for the first that is unusable.
+void refuse_unusable(const std::vector<WeakPlace>& places);
+
 }  // namespace scan2fea

@@ -29,12 +29,12 @@ struct Sides {
 
 // Where two bodies touch.
 struct Contact {
-  std::uint32_t first = 0, second = 0;          // bodies, in their order
-  std::size_t triangles = 0;                    // of the second, that gave way to those of the first
-  double area = 0;                              // of the first's surface
-  double largest_gap = 0, largest_overlap = 0;  // that were closed, model units
-  double tolerance = 0;                         // up to which they would have been
-  Vec3 at = Vec3::Zero();                       // the place of the larger of them
+  std::uint32_t first = no_body, second = no_body;  // bodies, in their order
+  std::size_t triangles = 0;                        // of the second, that gave way to those of the first
+  double area = 0;                                  // of the first's surface
+  double largest_gap = 0, largest_overlap = 0;      // that were closed, model units
+  double tolerance = 0;                             // up to which they would have been
+  Vec3 at = Vec3::Zero();                           // the place of the larger of them
 };
 
 struct BodyComplex {

@@ -170,7 +170,9 @@ class Join {
         const auto foot = on_complex.under(p, on_body.normal(second.origin(f)), tolerance_);
         if (!foot) continue;
         Contact& contact = contacts[complex_.sides[foot->triangle].behind];
-        if (std::abs(foot->height) > std::max(contact.largest_gap, contact.largest_overlap)) contact.at = p;
+        const bool is_first = contact.second != added_;
+        if (is_first || std::abs(foot->height) > std::max(contact.largest_gap, contact.largest_overlap)) contact.at = p;
+        contact.second = added_;
         contact.largest_gap = std::max(contact.largest_gap, foot->height);
         contact.largest_overlap = std::max(contact.largest_overlap, -foot->height);
       }
@@ -179,7 +181,6 @@ class Join {
     }
     for (auto& [other, contact] : contacts) {
       contact.first = other;
-      contact.second = added_;
       contact.tolerance = tolerance_;
       complex_.contacts.push_back(contact);
     }

@@ -115,8 +115,9 @@ SurfaceMesh boundary_surface(const TetMesh& mesh) {
   constexpr auto unused = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> renumbered(mesh.nodes.size(), unused);
   SurfaceMesh surface;
-  surface.triangles.reserve(mesh.boundary.size());
-  for (const BoundaryFace f : mesh.boundary) {
+  surface.triangles.reserve(mesh.outer_faces());
+  for (std::size_t i = 0; i < mesh.outer_faces(); ++i) {
+    const BoundaryFace f = mesh.boundary[i];
     Triangle& t = surface.triangles.emplace_back(boundary_triangle(mesh, f));
     std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
     for (const std::uint32_t v : t) renumbered[v] = 0;

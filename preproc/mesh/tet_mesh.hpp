@@ -35,12 +35,16 @@ struct TetMesh {
   std::vector<Vec3> nodes;
   std::vector<Tetrahedron> tetrahedra;
   std::vector<MidEdgeNodes> mid_edge_nodes;  // empty for first order, one per tetrahedron for second order
-  std::vector<BoundaryFace> boundary;        // in the order of the surface's triangles
+  // In the order of the surface's triangles; the last `faces_between` of it are faces between two bodies, each once, as
+  // the face of one of them.
+  std::vector<BoundaryFace> boundary;
+  std::size_t faces_between = 0;
   std::vector<NamedSet> node_sets;
   std::vector<NamedSet> face_sets;     // of `boundary`; a writer derives their nodes (nodes_of_faces)
   std::vector<NamedSet> element_sets;  // bodies, materials
   std::string unit;                    // of length, as in the file or as given; empty where it is not known
 
+  std::size_t outer_faces() const { return boundary.size() - faces_between; }
   int order() const { return mid_edge_nodes.empty() ? 1 : 2; }
 };
 

@@ -89,12 +89,25 @@ std::vector<bool> vertices_on_lines(const FeatureNet& net, std::size_t vertices)
   return on_line;
 }
 
-VertexConstraints held_lines(const FeatureNet& net, std::size_t vertices) {
+namespace {
+
+VertexConstraints held(const FeatureNet& net, std::size_t vertices, bool borders_alone) {
   if (net.empty()) return {};
   VertexConstraints constraints(vertices, VertexConstraint::free);
   for (const FeatureLine& line : net.lines)
-    for (const VertexOnLine& at : line.vertices) constraints[at.vertex] = VertexConstraint::fixed;
+    for (const VertexOnLine& at : line.vertices)
+      if (line.border || !borders_alone) constraints[at.vertex] = VertexConstraint::fixed;
   return constraints;
+}
+
+}  // namespace
+
+VertexConstraints held_lines(const FeatureNet& net, std::size_t vertices) {
+  return held(net, vertices, false);
+}
+
+VertexConstraints held_borders(const FeatureNet& net, std::size_t vertices) {
+  return held(net, vertices, true);
 }
 
 }  // namespace scan2fea

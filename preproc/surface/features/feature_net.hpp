@@ -76,4 +76,7 @@ std::vector<bool> vertices_on_lines(const FeatureNet& net, std::size_t vertices)
 // The same as constraints that hold vertices on lines where they are; none for an empty net.
 VertexConstraints held_lines(const FeatureNet& net, std::size_t vertices);
 
+// The same for borders alone.
+VertexConstraints held_borders(const FeatureNet& net, std::size_t vertices);
+
 }  // namespace scan2fea

@@ -19,7 +19,9 @@ struct CurveTolerance {
 
 struct FeatureScan {
   // `sharp`: edges of the scan, see find_features. Keeps a reference to the scan, which must outlive it. Nearly linear.
-  FeatureScan(const SurfaceMesh& scan, std::vector<FeatureEdge> sharp, const CurveTolerance& tolerance);
+  // `held_border`: see below.
+  FeatureScan(const SurfaceMesh& scan, std::vector<FeatureEdge> sharp, const CurveTolerance& tolerance,
+              std::vector<bool> held_border = {});
 
   // Whether there is anything to keep; without, the scan itself serves as well.
   bool empty() const { return sharp.empty() && border.empty(); }
@@ -28,6 +30,9 @@ struct FeatureScan {
   std::vector<FeatureEdge> sharp;   // sorted
   std::vector<FeatureEdge> border;  // sorted
   CurveTolerance tolerance;
+  // Per vertex of the scan, whether it is a vertex of the result where it lies on the border, which then has no others:
+  // another surface has them already. Empty: the border is sampled as the sizing asks for.
+  std::vector<bool> held_border;
   CutSurface cut;      // along the sharp edges; without features, nothing
   Components patches;  // of cut.mesh
 };

@@ -112,6 +112,17 @@ void scale_to(Welded& scan, double triangles) {
   for (double& h : scan.edge_length) h *= factor;
 }
 
+// Of borders that another surface has already, its vertices there and no others.
+void take_held(const FeatureCurves& curves, const std::vector<bool>& held, SampledPlaces& places) {
+  for (std::size_t c = 0; c < places.size(); ++c) {
+    if (!curves.curves[c].border) continue;
+    places[c].clear();
+    const std::vector<std::uint32_t>& vertices = curves.curves[c].vertices;
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+      if (vertices[i] < held.size() && held[vertices[i]]) places[c].push_back(static_cast<double>(i));
+  }
+}
+
 // Makes every sample a vertex of its curve; `places` are then whole numbers.
 void insert_samples(Welded& scan, FeatureCurves& curves, SampledPlaces& places) {
   for (std::size_t c = 0; c < places.size(); ++c) {
@@ -279,6 +290,7 @@ AnchoredScan anchor_scan(const FeatureScan& scan, const SizingOptions& options, 
     const std::vector<FeatureEdge> border = welded.border();
     curves = trace_feature_curves(welded.mesh.vertices, welded.sharp(border), border, welded.edge_length);
     places = sample_curves(welded.mesh, curves, welded.edge_length, {.tolerance = tolerance});
+    if (!scan.held_border.empty()) take_held(curves, scan.held_border, places);
   };
   for (int round = 0; round < rounds_of_spacing; ++round) {
     sample();

@@ -18,8 +18,9 @@ namespace scan2fea {
 
 // Edges of a scan that are lines of every surface made of it, whatever triangles they take: borders of sets.
 struct KeptLines {
-  std::vector<FeatureEdge> edges;  // sorted
-  std::size_t smooth = 0;          // of them, that are no creases
+  std::vector<FeatureEdge> edges;      // sorted
+  std::size_t smooth = 0;              // of them, that are no creases
+  std::vector<bool> held_border = {};  // see FeatureScan
 };
 
 // The scan with the creases that a surface made of it is to keep. It never changes; where a surface can keep only some
@@ -32,7 +33,7 @@ class PreparedScan {
       : given(scan_given),
         mesh(surface),
         lines_(std::move(lines)),
-        features_(surface, united(std::move(creases), lines_.edges), tolerance_of_curves) {}
+        features_(surface, united(std::move(creases), lines_.edges), tolerance_of_curves, lines_.held_border) {}
   // The same, keeping the surface.
   PreparedScan(const SurfaceMesh& scan_given, std::shared_ptr<const SurfaceMesh> surface,
                std::vector<FeatureEdge> creases, const CurveTolerance& tolerance_of_curves, KeptLines lines = {})

@@ -156,7 +156,9 @@ Candidate by_lattice(const PreparedScanPointer& prepared, const SizingOptions& s
   if (plan.within_deviation) fit.hold_faces_below = 1;
   fit.fidelity_of_diagonal = plan.fidelity_of_diagonal;
   fit.fidelity_of_residual = plan.fidelity_of_residual;
-  if (scan.has_creases()) {
+  const bool holds_border = !scan.features().held_border.empty();
+  const bool keeps_planes = scan.has_creases() || holds_border;
+  if (keeps_planes) {
     const double edge = scan.reference().mean_edge(candidate.faces());
     fit.fidelity_of_diagonal = std::min(fidelity_of_parts, fidelity_over_edge * edge / scan.reference().diagonal);
     *fit.lift_tail_of_diagonal *= fit.fidelity_of_diagonal / plan.fidelity_of_diagonal;
@@ -164,12 +166,13 @@ Candidate by_lattice(const PreparedScanPointer& prepared, const SizingOptions& s
     fit.rounds = first_rounds + plan.rounds / 2;  // planes and cylinders are met soon
   }
   fit.nearest_vertex_of_scan_vertex = std::move(lattice.vertex_of_scan_vertex);
+  if (holds_border) fit.constraints = held_borders(candidate.net, candidate.mesh.vertices.size());
   candidate.fit = optimise_shape_and_fit(candidate.mesh, candidate.net, scan.reference(), fit, progress);
   MendOptions mending;
   mending.nearest_vertex_of_scan_vertex = std::move(fit.nearest_vertex_of_scan_vertex);
   mending.scan_vertex_of_face = std::move(candidate.fit.scan_vertex_of_face);
   // On parts with edges, not much looser than the fit: what is plane stays plane.
-  if (scan.has_creases()) {
+  if (keeps_planes) {
     mending.fidelity_of_diagonal = candidate.fit.fidelity_of_diagonal;
     mending.loosest_fidelity_of_diagonal = 2 * candidate.fit.fidelity_of_diagonal;
   }

@@ -1,0 +1,276 @@
+#include "preproc/joined_surface.hpp"
+
+#include "preproc/bodies/interface_sheets.hpp"
+#include "preproc/mesh/error.hpp"
+#include "preproc/surface/features/curve_sampling.hpp"
+#include "preproc/surface/features/feature_curves.hpp"
+#include "preproc/surface/fit/preserve_volume.hpp"
+#include "preproc/surface/kernel/cut_surface.hpp"
+#include "preproc/surface/simplification/simplify_sheet.hpp"
+#include "quality/self_intersections.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace scan2fea {
+namespace {
+
+constexpr auto no_index = std::numeric_limits<std::uint32_t>::max();
+// No name that a user can give.
+constexpr char mark = '\x01';
+// Of the diagonal, as in interface_sheets.cpp; and how far chords may be from lines within.
+constexpr double rounding = 1e-6, line_tolerance = 1e-4;
+// Of a body's volume: less is the rounding of coordinates.
+constexpr double exact_volume = 1e-9;
+
+// Corners that triangles use, renumbered in their order.
+struct OwnVertices {
+  std::vector<std::uint32_t> of_complex;  // per own vertex
+  SurfaceMesh mesh;
+};
+
+OwnVertices own_vertices(const std::vector<Vec3>& vertices, std::vector<Triangle> triangles) {
+  std::vector<std::uint32_t> number(vertices.size(), no_index);
+  for (const Triangle& t : triangles)
+    for (const std::uint32_t v : t) number[v] = 0;
+  OwnVertices own;
+  for (std::uint32_t v = 0; v < number.size(); ++v) {
+    if (number[v] == no_index) continue;
+    number[v] = static_cast<std::uint32_t>(own.of_complex.size());
+    own.of_complex.push_back(v);
+    own.mesh.vertices.push_back(vertices[v]);
+  }
+  for (Triangle& t : triangles)
+    for (std::uint32_t& v : t) v = number[v];
+  own.mesh.triangles = std::move(triangles);
+  return own;
+}
+
+// Adds the pieces between bodies one after the other.
+class Interfaces {
+ public:
+  Interfaces(const BodyComplex& scan, const SimplifyOptions& options, const std::vector<FeatureEdge>& line_edges,
+             BodyComplex& made)
+      : scan_(scan),
+        options_(options),
+        made_(made),
+        near_(rounding * bounding_box(scan.mesh.vertices).diagonal()),
+        mean_edge_(mean_edge_length(made.mesh)),
+        is_held_(made.mesh.vertices.size(), false) {
+    for (const FeatureEdge& edge : line_edges)
+      for (const std::uint32_t v : edge) is_held_[v] = true;
+  }
+
+  InterfaceResult run(const Progress& progress) {
+    find_points_on_lines();
+    sample_inner_lines();
+    const std::vector<Sheet> sheets = find_sheets(scan_);
+    for (const Sheet& sheet : sheets) {
+      if (sheet.is_closed) continue;
+      progress("interfaces", static_cast<double>(result_.sheets) / static_cast<double>(sheets.size()));
+      add(sheet, progress);
+    }
+    restore_volumes();
+    require_clear();
+    return result_;
+  }
+
+ private:
+  // Vertices of the outside at which triangles of other bodies meet.
+  void find_points_on_lines() {
+    std::map<FeatureEdge, Sides> sides;
+    std::vector<bool> is_on_line(made_.mesh.vertices.size(), false);
+    for (std::size_t f = 0; f < made_.sides.size(); ++f)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const FeatureEdge edge = feature_edge(made_.mesh.triangles[f][k], made_.mesh.triangles[f][(k + 1) % 3]);
+        const auto [at, is_first] = sides.try_emplace(edge, made_.sides[f]);
+        if (!is_first && at->second != made_.sides[f]) is_on_line[edge[0]] = is_on_line[edge[1]] = true;
+      }
+    for (std::uint32_t v = 0; v < is_on_line.size(); ++v)
+      if (is_on_line[v]) candidates_.push_back(v);
+  }
+
+  // Lines at which bodies meet within are no edges of the outside, and get their vertices here.
+  void sample_inner_lines() {
+    const std::vector<FeatureEdge> inner = find_lines(scan_).inner;
+    if (inner.empty()) return;
+    const std::vector<double> length(scan_.mesh.vertices.size(), mean_edge_);
+    const FeatureCurves curves = trace_feature_curves(scan_.mesh.vertices, inner, {}, length);
+    const double tolerance = line_tolerance * bounding_box(scan_.mesh.vertices).diagonal();
+    const auto places = sample_curves(scan_.mesh, curves, length, {.tolerance = tolerance});
+    for (std::size_t c = 0; c < places.size(); ++c)
+      for (const double place : places[c]) {
+        const Vec3 p = curve_point(scan_.mesh, curves.curves[c], place);
+        if (std::ranges::any_of(candidates_,
+                                [&](std::uint32_t v) { return (made_.mesh.vertices[v] - p).norm() <= near_; }))
+          continue;
+        candidates_.push_back(add_vertex(p, true));
+      }
+  }
+
+  void add(const Sheet& sheet, const Progress& progress) {
+    const SheetSurface of_scan = extract_sheet(scan_, sheet, made_.mesh.vertices, candidates_);
+    std::vector<bool> held;
+    std::map<std::array<double, 3>, std::uint32_t> vertex_at;
+    for (std::size_t v = 0; v < of_scan.mesh.vertices.size(); ++v) {
+      const std::uint32_t point = of_scan.point_of_vertex[v];
+      held.push_back(point != no_point);
+      const Vec3& p = of_scan.mesh.vertices[v];
+      if (held.back()) vertex_at[{p.x(), p.y(), p.z()}] = point;
+    }
+    double border = 0;
+    for (const auto& [a, b] : boundary_edges(of_scan.mesh))
+      border += (of_scan.mesh.vertices[a] - of_scan.mesh.vertices[b]).norm();
+    const double spacing = border / static_cast<double>(std::max<std::size_t>(1, vertex_at.size()));
+    const SimplifiedSheet made = simplify_sheet(of_scan.mesh, held, std::max(spacing, mean_edge_), options_, progress);
+    std::vector<std::uint32_t> number;
+    for (std::size_t v = 0; v < made.mesh.vertices.size(); ++v) {
+      const Vec3& p = made.mesh.vertices[v];
+      const auto at = made.on_border[v] ? vertex_at.find({p.x(), p.y(), p.z()}) : vertex_at.end();
+      number.push_back(at != vertex_at.end() ? at->second : add_vertex(p, made.on_line[v]));
+    }
+    for (const Triangle& t : made.mesh.triangles) {
+      made_.mesh.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
+      made_.sides.push_back(sheet.sides);
+    }
+    ++result_.sheets;
+    result_.faces_before += sheet.triangles.size();
+    result_.faces_after += made.mesh.triangles.size();
+  }
+
+  std::uint32_t add_vertex(const Vec3& p, bool is_held) {
+    made_.mesh.vertices.push_back(p);
+    is_held_.push_back(is_held);
+    return static_cast<std::uint32_t>(made_.mesh.vertices.size() - 1);
+  }
+
+  // The last body first: what lies between it and others is then settled.
+  void restore_volumes() {
+    std::uint32_t bodies = 0;
+    for (const Sides& sides : made_.sides) bodies = std::max(bodies, sides.behind + 1);
+    for (const Sides& sides : made_.sides)
+      if (sides.front != no_body) bodies = std::max(bodies, sides.front + 1);
+    for (std::uint32_t b = bodies; b-- > 0;) restore_volume(b);
+  }
+
+  void restore_volume(std::uint32_t body) {
+    OwnVertices own = own_vertices(made_.mesh.vertices, triangles_of_body(made_, body));
+    const SurfaceMesh like = own_vertices(scan_.mesh.vertices, triangles_of_body(scan_, body)).mesh;
+    const double wanted = enclosed_volume(like);
+    if (std::abs(enclosed_volume(own.mesh) - wanted) > exact_volume * wanted) {
+      VertexConstraints constraints;
+      for (const std::uint32_t v : own.of_complex)
+        constraints.push_back(is_held_[v] ? VertexConstraint::fixed : VertexConstraint::free);
+      preserve_volume_clear(own.mesh, like, constraints);
+      for (std::size_t v = 0; v < own.of_complex.size(); ++v) {
+        Vec3& p = made_.mesh.vertices[own.of_complex[v]];
+        result_.largest_volume_shift = std::max(result_.largest_volume_shift, (p - own.mesh.vertices[v]).norm());
+        p = own.mesh.vertices[v];
+      }
+    }
+    for (std::size_t f = 0; f < made_.sides.size(); ++f)
+      if (made_.sides[f].front == body || (made_.sides[f].behind == body && made_.sides[f].front != no_body))
+        for (const std::uint32_t v : made_.mesh.triangles[f]) is_held_[v] = true;
+  }
+
+  void require_clear() const {
+    const std::vector<FacePair> crossings = find_self_intersections(made_.mesh);
+    if (crossings.empty()) return;
+    throw NotMeshable({.what = "surfaces between bodies cross others",
+                       .where = {},
+                       .value = std::to_string(crossings.size()) + " pairs of triangles",
+                       .limit = "none",
+                       .advice = "smaller triangles (--deviation, --faces)",
+                       .at = centroid(made_.mesh, made_.mesh.triangles[crossings.front().face])});
+  }
+
+  const BodyComplex& scan_;
+  const SimplifyOptions& options_;
+  BodyComplex& made_;
+  double near_, mean_edge_;
+  std::vector<std::uint32_t> candidates_;  // vertices that may lie on borders of pieces
+  std::vector<bool> is_held_;              // per vertex
+  InterfaceResult result_;
+};
+
+}  // namespace
+
+Outside outside_of(const BodyComplex& scan) {
+  std::vector<bool> is_taken(scan.sides.size());
+  for (std::size_t f = 0; f < is_taken.size(); ++f) is_taken[f] = scan.sides[f].front == no_body;
+  for (const Sheet& sheet : find_sheets(scan))
+    if (sheet.is_closed)
+      for (const std::uint32_t f : sheet.triangles) is_taken[f] = true;
+  Outside outside;
+  std::vector<Triangle> triangles;
+  for (std::uint32_t f = 0; f < is_taken.size(); ++f) {
+    if (!is_taken[f]) continue;
+    const Sides& sides = scan.sides[f];
+    const auto at = std::find(outside.of_set.begin(), outside.of_set.end(), sides) - outside.of_set.begin();
+    if (at == static_cast<std::ptrdiff_t>(outside.of_set.size())) {
+      outside.of_set.push_back(sides);
+      outside.sets.push_back({mark + std::to_string(at), {}});
+    }
+    outside.sets[static_cast<std::size_t>(at)].members.push_back(static_cast<std::uint32_t>(triangles.size()));
+    triangles.push_back(scan.mesh.triangles[f]);
+  }
+  outside.mesh = own_vertices(scan.mesh.vertices, std::move(triangles)).mesh;
+  return outside;
+}
+
+BodyComplex outside_as_made(const Outside& outside, PipelineResult& result) {
+  const std::size_t count = result.surface.triangles.size();
+  std::vector<Sides> sides(count, outside.of_set.front());
+  for (const NamedSet& set : result.face_sets)
+    if (const std::size_t s = find_set(outside.sets, set.name); s < outside.sets.size())
+      for (const std::uint32_t f : set.members) sides[f] = outside.of_set[s];
+  std::erase_if(result.face_sets, [](const NamedSet& set) { return set.name.front() == mark; });
+  std::erase_if(result.sets, [](const MadeSet& set) { return set.name.front() == mark; });
+
+  std::vector<std::uint32_t> order(count);
+  for (std::uint32_t f = 0; f < count; ++f) order[f] = f;
+  std::ranges::stable_partition(order, [&](std::uint32_t f) { return sides[f].front == no_body; });
+  BodyComplex made{.mesh = {result.surface.vertices, {}}, .sides = {}, .contacts = {}};
+  for (const std::uint32_t f : order) {
+    made.mesh.triangles.push_back(result.surface.triangles[f]);
+    made.sides.push_back(sides[f]);
+  }
+  result.face_sets = carried_sets(result.face_sets, order);
+  return made;
+}
+
+InterfaceResult add_interfaces(const BodyComplex& scan, const SimplifyOptions& options,
+                               const std::vector<FeatureEdge>& line_edges, BodyComplex& made,
+                               const Progress& progress) {
+  return Interfaces(scan, options, line_edges, made).run(progress);
+}
+
+TetrahedralizeResult fill_body(const BodyComplex& made, std::uint32_t body, const TetrahedralizeOptions& options,
+                               const Progress& progress, TetMesh& mesh) {
+  const OwnVertices own = own_vertices(made.mesh.vertices, triangles_of_body(made, body));
+  TetrahedralizeResult filled = tetrahedralize(own.mesh, options, progress);
+  std::vector<std::uint32_t> node = own.of_complex;
+  for (std::size_t n = node.size(); n < filled.mesh.nodes.size(); ++n) {
+    node.push_back(static_cast<std::uint32_t>(mesh.nodes.size()));
+    mesh.nodes.push_back(filled.mesh.nodes[n]);
+  }
+  const auto first = static_cast<std::uint32_t>(mesh.tetrahedra.size());
+  NamedSet& set = mesh.element_sets.emplace_back();
+  for (const Tetrahedron& t : filled.mesh.tetrahedra) {
+    set.members.push_back(static_cast<std::uint32_t>(mesh.tetrahedra.size()));
+    mesh.tetrahedra.push_back({node[t[0]], node[t[1]], node[t[2]], node[t[3]]});
+  }
+  // As triangles_of_body lists them.
+  std::size_t i = 0;
+  for (std::size_t f = 0; f < made.sides.size(); ++f) {
+    if (made.sides[f].behind != body && made.sides[f].front != body) continue;
+    const BoundaryFace face = filled.mesh.boundary[i++];
+    if (made.sides[f].behind == body) mesh.boundary[f] = {first + face.tetrahedron, face.face};
+  }
+  return filled;
+}
+
+}  // namespace scan2fea
