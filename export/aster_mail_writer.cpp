@@ -32,8 +32,8 @@ class Words {
   std::size_t column_ = 0;
 };
 
-std::string node(std::uint32_t index) {
-  return "N" + std::to_string(std::uint64_t{index} + 1);
+std::string node(std::uint64_t number) {
+  return "N" + std::to_string(number);
 }
 
 std::string element(std::uint64_t number) {
@@ -45,31 +45,31 @@ std::string exact(double value) {
   return {text, std::to_chars(text, std::end(text), value).ptr};
 }
 
-void write_nodes(TextOutput& out, const std::vector<Vec3>& nodes) {
+void write_nodes(TextOutput& out, const std::vector<Vec3>& nodes, const Numbering& numbers) {
   out << "COOR_3D\n";
   Words words(out);
   for (std::uint32_t n = 0; n < nodes.size(); ++n) {
-    words << node(n) << exact(nodes[n].x()) << exact(nodes[n].y()) << exact(nodes[n].z());
+    words << node(numbers.node(n)) << exact(nodes[n].x()) << exact(nodes[n].y()) << exact(nodes[n].z());
     words.end_line();
   }
   out << "FINSF\n";
 }
 
-void write_tetrahedra(TextOutput& out, const TetMesh& mesh) {
+void write_tetrahedra(TextOutput& out, const TetMesh& mesh, const Numbering& numbers) {
   out << (mesh.order() == 2 ? "TETRA10\n" : "TETRA4\n");
   Words words(out);
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
-    words << element(t + 1);
-    for (const std::uint32_t n : mesh.tetrahedra[t]) words << node(n);
+    words << element(numbers.element(t));
+    for (const std::uint32_t n : mesh.tetrahedra[t]) words << node(numbers.node(n));
     if (mesh.order() == 2)
-      for (const std::uint32_t n : mesh.mid_edge_nodes[t]) words << node(n);
+      for (const std::uint32_t n : mesh.mid_edge_nodes[t]) words << node(numbers.node(n));
     words.end_line();
   }
   out << "FINSF\n";
 }
 
 // Those that are in sets; numbers behind the tetrahedra's.
-std::vector<std::uint64_t> write_triangles(TextOutput& out, const TetMesh& mesh) {
+std::vector<std::uint64_t> write_triangles(TextOutput& out, const TetMesh& mesh, const Numbering& numbering) {
   std::vector<std::uint64_t> numbers(mesh.boundary.size(), 0);
   bool any = false;
   for (const NamedSet& set : mesh.face_sets)
@@ -80,14 +80,14 @@ std::vector<std::uint64_t> write_triangles(TextOutput& out, const TetMesh& mesh)
   if (!any) return numbers;
   out << (mesh.order() == 2 ? "TRIA6\n" : "TRIA3\n");
   Words words(out);
-  std::uint64_t number = mesh.tetrahedra.size();
+  std::uint64_t number = numbering.element(mesh.tetrahedra.size());
   for (std::size_t f = 0; f < numbers.size(); ++f) {
     if (numbers[f] == 0) continue;
-    numbers[f] = ++number;
-    words << element(number);
-    for (const std::uint32_t n : boundary_triangle(mesh, mesh.boundary[f])) words << node(n);
+    numbers[f] = number++;
+    words << element(numbers[f]);
+    for (const std::uint32_t n : boundary_triangle(mesh, mesh.boundary[f])) words << node(numbering.node(n));
     if (mesh.order() == 2)
-      for (const std::uint32_t n : boundary_mid_edge_nodes(mesh, mesh.boundary[f])) words << node(n);
+      for (const std::uint32_t n : boundary_mid_edge_nodes(mesh, mesh.boundary[f])) words << node(numbering.node(n));
     words.end_line();
   }
   out << "FINSF\n";
@@ -124,12 +124,12 @@ WrittenNames names_in_mail(const TetMesh& mesh, Notes& notes) {
   sets.node_sets = mesh.node_sets;
   sets.face_sets = mesh.face_sets;
   sets.element_sets = mesh.element_sets;
-  return names_of_whole(with_whole_sets(sets, notes), notes);
+  return names_of_whole(with_whole_sets(sets, {}, notes), notes);
 }
 
 Notes write_mail(const TetMesh& given, const std::filesystem::path& file, const FileOptions& options) {
   Notes notes;
-  const TetMesh mesh = with_whole_sets(given, notes);
+  const TetMesh mesh = with_whole_sets(given, options.set_prefix, notes);
   const WrittenNames names = names_of_whole(mesh, notes);
   OutputFile output(file);
   {
@@ -137,12 +137,15 @@ Notes write_mail(const TetMesh& given, const std::filesystem::path& file, const 
     out << "% written by scan2fea\n";
     if (!options.provenance.empty()) out << "% " << one_line(options.provenance).substr(0, 76) << "\n";
     if (!mesh.unit.empty()) out << "% " << unit_comment(mesh.unit) << "\n";
-    write_nodes(out, mesh.nodes);
-    write_tetrahedra(out, mesh);
-    const std::vector<std::uint64_t> triangles = write_triangles(out, mesh);
-    write_groups(out, "GROUP_MA", mesh.element_sets, names.elements, [](std::uint32_t t) { return element(t + 1UL); });
+    const Numbering& numbers = options.numbers;
+    write_nodes(out, mesh.nodes, numbers);
+    write_tetrahedra(out, mesh, numbers);
+    const std::vector<std::uint64_t> triangles = write_triangles(out, mesh, numbers);
+    write_groups(out, "GROUP_MA", mesh.element_sets, names.elements,
+                 [&](std::uint32_t t) { return element(numbers.element(t)); });
     write_groups(out, "GROUP_MA", mesh.face_sets, names.faces, [&](std::uint32_t f) { return element(triangles[f]); });
-    write_groups(out, "GROUP_NO", mesh.node_sets, names.nodes, node);
+    write_groups(out, "GROUP_NO", mesh.node_sets, names.nodes,
+                 [&](std::uint32_t n) { return node(numbers.node(n)); });
     out << "FIN\n";
   }
   output.commit();

@@ -84,47 +84,51 @@ void write_header(TextOutput& out, const std::vector<Vec3>& nodes, const std::st
   if (!options.provenance.empty()) write_comment(out, options.provenance);
   if (!unit.empty()) write_comment(out, unit_comment(unit));
   out << "BEGIN BULK\n";
-  for (std::size_t n = 0; n < nodes.size(); ++n) write_grid(out, n + 1, nodes[n]);
+  for (std::size_t n = 0; n < nodes.size(); ++n) write_grid(out, options.numbers.node(n), nodes[n]);
 }
 
-void write_properties(TextOutput& out, std::string_view card, const SetParts& parts,
-                      std::span<const std::string> names) {
+void write_properties(TextOutput& out, std::string_view card, const SetParts& parts, std::span<const std::string> names,
+                      const Numbering& numbers) {
   for (std::size_t part = 0; part < parts.of.size(); ++part) {
     if (std::find(parts.part.begin(), parts.part.end(), part) == parts.part.end()) continue;
     if (part > 0)
-      write_comment(out, std::string(card) + " " + std::to_string(part + 1) + " is " + part_name(parts, part, names));
+      write_comment(out, std::string(card) + " " + std::to_string(numbers.other(part + 1)) + " is " +
+                             part_name(parts, part, names));
     if (card == "PSHELL")
-      Card(out, card) << part + 1 << std::uint64_t{1} << std::string("1.");
+      Card(out, card) << numbers.other(part + 1) << std::uint64_t{1} << std::string("1.");
     else
-      Card(out, card) << part + 1 << std::uint64_t{1};
+      Card(out, card) << numbers.other(part + 1) << std::uint64_t{1};
   }
 }
 
-void write_nodes_of_set(TextOutput& out, std::size_t number, std::span<const std::uint32_t> nodes) {
+void write_nodes_of_set(TextOutput& out, std::size_t number, std::span<const std::uint32_t> nodes,
+                        const Numbering& numbers) {
   if (nodes.empty()) return;
   Card set(out, "SET1");
   set << number;
-  for (const std::uint32_t n : nodes) set << std::uint64_t{n} + 1;
+  for (const std::uint32_t n : nodes) set << numbers.node(n);
 }
 
-void write_clamp(TextOutput& out, std::size_t number, std::span<const std::uint32_t> nodes) {
+void write_clamp(TextOutput& out, std::size_t number, std::span<const std::uint32_t> nodes, const Numbering& numbers) {
   if (nodes.empty()) return;
   Card clamp(out, "SPC1");
   clamp << number << std::string("123");
-  for (const std::uint32_t n : nodes) clamp << std::uint64_t{n} + 1;
+  for (const std::uint32_t n : nodes) clamp << numbers.node(n);
 }
 
 void write_node_sets(TextOutput& out, std::span<const NamedSet> sets, std::span<const std::string> names,
-                     std::size_t first) {
+                     std::size_t first, const FileOptions& options) {
   for (std::size_t s = 0; s < sets.size(); ++s) {
     write_comment(out, "SET1 " + std::to_string(first + s) + " is " + names[s]);
-    write_nodes_of_set(out, first + s, sets[s].members);
-    if (!is_reserved_set(names[s])) write_clamp(out, first + s, sets[s].members);  // nobody clamps all
+    write_nodes_of_set(out, first + s, sets[s].members, options.numbers);
+    if (!is_whole_set(names[s], options.set_prefix))
+      write_clamp(out, first + s, sets[s].members, options.numbers);  // nobody clamps all
   }
 }
 
 // PLOAD4 tells the face of a CTETRA by one of its corners and the corner opposite to it.
-void write_face_sets(TextOutput& out, const TetMesh& mesh, std::span<const std::string> names, std::size_t first) {
+void write_face_sets(TextOutput& out, const TetMesh& mesh, std::span<const std::string> names, std::size_t first,
+                     const FileOptions& options) {
   for (std::size_t s = 0; s < mesh.face_sets.size(); ++s) {
     const NamedSet& set = mesh.face_sets[s];
     const std::size_t number = first + s;
@@ -135,13 +139,13 @@ void write_face_sets(TextOutput& out, const TetMesh& mesh, std::span<const std::
       const auto& face = tetrahedron_faces[f.face];
       const auto opposite = static_cast<std::size_t>(6 - face[0] - face[1] - face[2]);  // corners are 0 to 3
       Card load(out, "PLOAD4");
-      load << number << std::uint64_t{f.tetrahedron} + 1 << std::string("1.") << std::string() << std::string()
-           << std::string() << std::uint64_t{corners[static_cast<std::size_t>(face[0])]} + 1
-           << std::uint64_t{corners[opposite]} + 1;
+      load << number << options.numbers.element(f.tetrahedron) << std::string("1.") << std::string() << std::string()
+           << std::string() << options.numbers.node(corners[static_cast<std::size_t>(face[0])])
+           << options.numbers.node(corners[opposite]);
     }
     const std::vector<std::uint32_t> nodes = nodes_of_faces(mesh, set.members);
-    write_nodes_of_set(out, number, nodes);
-    if (!is_reserved_set(names[s])) write_clamp(out, number, nodes);
+    write_nodes_of_set(out, number, nodes, options.numbers);
+    if (!is_whole_set(names[s], options.set_prefix)) write_clamp(out, number, nodes, options.numbers);
   }
 }
 
@@ -149,7 +153,7 @@ void write_face_sets(TextOutput& out, const TetMesh& mesh, std::span<const std::
 
 Notes write_bdf(const TetMesh& given, const std::filesystem::path& file, const FileOptions& options) {
   Notes notes;
-  TetMesh mesh = with_whole_sets(given, notes);
+  TetMesh mesh = with_whole_sets(given, options.set_prefix, notes);
   mesh.element_sets.pop_back();  // every element has one property, so EALL is what all cards of CTETRA are
   const std::vector<std::string> elements = names_for(mesh.element_sets, rules, {}, notes);
   const std::vector<std::string> faces = names_for(mesh.face_sets, rules, {}, notes);
@@ -161,14 +165,14 @@ Notes write_bdf(const TetMesh& given, const std::filesystem::path& file, const F
     write_header(out, mesh.nodes, mesh.unit, options);
     for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
       Card element(out, "CTETRA");
-      element << t + 1 << std::uint64_t{parts.part[t]} + 1;
-      for (const std::uint32_t n : mesh.tetrahedra[t]) element << std::uint64_t{n} + 1;
+      element << options.numbers.element(t) << options.numbers.other(parts.part[t] + 1);
+      for (const std::uint32_t n : mesh.tetrahedra[t]) element << options.numbers.node(n);
       if (mesh.order() == 2)
-        for (const std::uint32_t n : mesh.mid_edge_nodes[t]) element << std::uint64_t{n} + 1;
+        for (const std::uint32_t n : mesh.mid_edge_nodes[t]) element << options.numbers.node(n);
     }
-    write_properties(out, "PSOLID", parts, elements);
-    write_node_sets(out, mesh.node_sets, nodes, 1);
-    write_face_sets(out, mesh, faces, 1 + mesh.node_sets.size());
+    write_properties(out, "PSOLID", parts, elements, options.numbers);
+    write_node_sets(out, mesh.node_sets, nodes, options.numbers.other(1), options);
+    write_face_sets(out, mesh, faces, options.numbers.other(1 + mesh.node_sets.size()), options);
     out << "ENDDATA\n";
   }
   output.commit();
@@ -186,11 +190,11 @@ Notes write_bdf(const NamedSurface& surface, const std::filesystem::path& file, 
     write_header(out, surface.mesh.vertices, surface.unit, options);
     for (std::size_t t = 0; t < surface.mesh.triangles.size(); ++t) {
       Card element(out, "CTRIA3");
-      element << t + 1 << std::uint64_t{parts.part[t]} + 1;
-      for (const std::uint32_t v : surface.mesh.triangles[t]) element << std::uint64_t{v} + 1;
+      element << options.numbers.element(t) << options.numbers.other(parts.part[t] + 1);
+      for (const std::uint32_t v : surface.mesh.triangles[t]) element << options.numbers.node(v);
     }
-    write_properties(out, "PSHELL", parts, faces);
-    write_node_sets(out, surface.node_sets, nodes, 1);
+    write_properties(out, "PSHELL", parts, faces, options.numbers);
+    write_node_sets(out, surface.node_sets, nodes, options.numbers.other(1), options);
     out << "ENDDATA\n";
   }
   output.commit();

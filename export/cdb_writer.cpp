@@ -1,9 +1,9 @@
 #include "export/cdb.hpp"
 #include "export/set_names.hpp"
 #include "export/text_output.hpp"
-#include "preproc/mesh/unit_comment.hpp"
 #include "preproc/mesh/length_unit.hpp"
 #include "preproc/mesh/output_file.hpp"
+#include "preproc/mesh/unit_comment.hpp"
 
 #include <array>
 #include <cstdio>
@@ -31,10 +31,10 @@ void write_header(TextOutput& out, const TetMesh& mesh, const FileOptions& optio
   if (!mesh.face_sets.empty()) out << "ET,2,154\n" << (mesh.order() == 2 ? "" : "KEYOPT,2,4,1\n");
 }
 
-void write_nodes(TextOutput& out, const std::vector<Vec3>& nodes) {
-  out << "NBLOCK,6,SOLID," << nodes.size() << "," << nodes.size() << "\n(3i9,6e24.16e3)\n";
+void write_nodes(TextOutput& out, const std::vector<Vec3>& nodes, const Numbering& numbers) {
+  out << "NBLOCK,6,SOLID," << numbers.node(nodes.size()) - 1 << "," << nodes.size() << "\n(3i9,6e24.16e3)\n";
   for (std::size_t n = 0; n < nodes.size(); ++n) {
-    write_integer(out, n + 1, 9);
+    write_integer(out, numbers.node(n), 9);
     out << "        0        0";
     for (const double coordinate : nodes[n]) {
       std::array<char, 32> text{};
@@ -55,8 +55,8 @@ void write_nodes(TextOutput& out, const std::vector<Vec3>& nodes) {
 
 class Elements {
  public:
-  Elements(TextOutput& out, std::size_t count) : out_(out) {
-    out_ << "EBLOCK,19,SOLID," << count << "," << count << "\n(19i9)\n";
+  Elements(TextOutput& out, std::size_t count, const Numbering& numbers) : out_(out), numbers_(numbers) {
+    out_ << "EBLOCK,19,SOLID," << numbers_.element(count) - 1 << "," << count << "\n(19i9)\n";
   }
   ~Elements() { out_ << "       -1\n"; }
   Elements(const Elements&) = delete;
@@ -70,13 +70,14 @@ class Elements {
       write_integer(out_, value, 9);
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       if (k == 8) out_ << "\n";
-      write_integer(out_, std::uint64_t{nodes[k]} + 1, 9);
+      write_integer(out_, numbers_.node(nodes[k]), 9);
     }
     out_ << "\n";
   }
 
  private:
   TextOutput& out_;
+  const Numbering& numbers_;
 };
 
 // A triangle is a quadrilateral whose third node is repeated.
@@ -87,24 +88,24 @@ std::vector<std::uint32_t> surface_nodes(const TetMesh& mesh, BoundaryFace f) {
   return {c[0], c[1], c[2], c[2], m[0], m[1], c[2], m[2]};
 }
 
-std::vector<std::uint64_t> write_elements(TextOutput& out, const TetMesh& mesh) {
+std::vector<std::uint64_t> write_elements(TextOutput& out, const TetMesh& mesh, const Numbering& numbering) {
   std::vector<std::uint64_t> numbers(mesh.boundary.size(), 0);  // of faces in sets
   for (const NamedSet& set : mesh.face_sets)
     for (const std::uint32_t f : set.members) numbers[f] = 1;
-  std::uint64_t number = mesh.tetrahedra.size();
+  std::size_t count = mesh.tetrahedra.size();
   for (std::uint64_t& n : numbers)
-    if (n != 0) n = ++number;
+    if (n != 0) n = numbering.element(count++);
   // Of the named sets alone: EALL, the last one, is one more set of all.
   const SetParts parts =
       set_parts(std::span(mesh.element_sets).first(mesh.element_sets.size() - 1), mesh.tetrahedra.size());
-  Elements elements(out, number);
+  Elements elements(out, count, numbering);
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
     std::vector<std::uint32_t> nodes(mesh.tetrahedra[t].begin(), mesh.tetrahedra[t].end());
     if (mesh.order() == 2) nodes.insert(nodes.end(), mesh.mid_edge_nodes[t].begin(), mesh.mid_edge_nodes[t].end());
-    elements.write(parts.part[t] + 1, 1, t + 1, nodes);
+    elements.write(numbering.other(parts.part[t] + 1), 1, numbering.element(t), nodes);
   }
   for (std::size_t f = 0; f < numbers.size(); ++f)
-    if (numbers[f] != 0) elements.write(1, 2, numbers[f], surface_nodes(mesh, mesh.boundary[f]));
+    if (numbers[f] != 0) elements.write(numbering.other(1), 2, numbers[f], surface_nodes(mesh, mesh.boundary[f]));
   return numbers;
 }
 
@@ -124,7 +125,7 @@ void write_component(TextOutput& out, const std::string& name, const char* kind,
 
 Notes write_cdb(const TetMesh& given, const std::filesystem::path& file, const FileOptions& options) {
   Notes notes;
-  const TetMesh mesh = with_whole_sets(given, notes);
+  const TetMesh mesh = with_whole_sets(given, options.set_prefix, notes);
   // Components have one list of names.
   std::vector<NamedSet> sets = mesh.element_sets;
   sets.insert(sets.end(), mesh.face_sets.begin(), mesh.face_sets.end());
@@ -136,11 +137,12 @@ Notes write_cdb(const TetMesh& given, const std::filesystem::path& file, const F
   {
     TextOutput out(output.stream());
     write_header(out, mesh, options);
-    write_nodes(out, mesh.nodes);
-    const std::vector<std::uint64_t> of_faces = write_elements(out, mesh);
+    write_nodes(out, mesh.nodes, options.numbers);
+    const std::vector<std::uint64_t> of_faces = write_elements(out, mesh, options.numbers);
     for (std::size_t s = 0; s < sets.size(); ++s)
       write_component(out, names[s], s < nodes ? "ELEM" : "NODE", sets[s], [&](std::uint32_t member) {
-        return s < faces || s >= nodes ? std::uint64_t{member} + 1 : of_faces[member];
+        if (s >= faces && s < nodes) return of_faces[member];
+        return s < faces ? options.numbers.element(member) : options.numbers.node(member);
       });
     out << "FINISH\n";
   }

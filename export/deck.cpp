@@ -83,7 +83,7 @@ void find_bodies(const TetMesh& mesh, const WrittenNames& names, DeckParts& part
 
 WrittenNames names_in(const TetMesh& mesh, const std::string& extension) {
   Notes notes;  // the mesh's writer tells them
-  if (extension == ".inp") return names_in_inp(mesh, notes);
+  if (extension == ".inp") return names_in_inp(mesh, {}, notes);
   return extension == ".med" ? names_in_med(mesh, notes) : names_in_mail(mesh, notes);
 }
 

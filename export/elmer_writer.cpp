@@ -1,12 +1,13 @@
 #include "export/elmer.hpp"
 #include "export/set_names.hpp"
 #include "export/text_output.hpp"
-#include "preproc/mesh/unit_comment.hpp"
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/output_file.hpp"
+#include "preproc/mesh/unit_comment.hpp"
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <span>
 
 namespace scan2fea {
@@ -39,11 +40,30 @@ void write_elements(TextOutput& out, const TetMesh& mesh, const SetParts& bodies
   }
 }
 
+// Numbers of the elements in front of faces between bodies, by face; 0 in front of the others.
+std::vector<std::uint64_t> elements_in_front(const TetMesh& mesh) {
+  std::map<Triangle, std::size_t> between;
+  const auto sorted = [](Triangle corners) {
+    std::sort(corners.begin(), corners.end());
+    return corners;
+  };
+  for (std::size_t f = mesh.outer_faces(); f < mesh.boundary.size(); ++f)
+    between[sorted(boundary_triangle(mesh, mesh.boundary[f]))] = f;
+  std::vector<std::uint64_t> in_front(mesh.boundary.size(), 0);
+  for (std::uint32_t t = 0; !between.empty() && t < mesh.tetrahedra.size(); ++t)
+    for (std::uint8_t k = 0; k < 4; ++k)
+      if (const auto at = between.find(sorted(boundary_triangle(mesh, {t, k})));
+          at != between.end() && mesh.boundary[at->second].tetrahedron != t)
+        in_front[at->second] = std::uint64_t{t} + 1;
+  return in_front;
+}
+
 void write_boundary(TextOutput& out, const TetMesh& mesh, const SetParts& boundaries) {
+  const std::vector<std::uint64_t> in_front = elements_in_front(mesh);
   for (std::size_t f = 0; f < mesh.boundary.size(); ++f) {
     const BoundaryFace face = mesh.boundary[f];
-    out << f + 1 << " " << boundaries.part[f] + 1 << " " << std::uint64_t{face.tetrahedron} + 1 << " 0 "
-        << (mesh.order() == 2 ? triangle_6 : triangle_3);
+    out << f + 1 << " " << boundaries.part[f] + 1 << " " << std::uint64_t{face.tetrahedron} + 1 << " " << in_front[f]
+        << " " << (mesh.order() == 2 ? triangle_6 : triangle_3);
     for (const std::uint32_t n : boundary_triangle(mesh, face)) out << " " << std::uint64_t{n} + 1;
     if (mesh.order() == 2)
       for (const std::uint32_t n : boundary_mid_edge_nodes(mesh, face)) out << " " << std::uint64_t{n} + 1;
@@ -52,7 +72,7 @@ void write_boundary(TextOutput& out, const TetMesh& mesh, const SetParts& bounda
 }
 
 // Elmer knows the names behind a `$`, which hold letters, digits and `_`; what they are made of is a comment.
-void write_names(TextOutput& out, const char* kind, const char* rest, const SetParts& parts,
+void write_names(TextOutput& out, const char* kind, const std::string& rest, const SetParts& parts,
                  std::span<const std::string> names) {
   for (std::size_t part = 0; part < parts.of.size(); ++part) {
     std::string name = part == 0 ? rest : part_name(parts, part, names);
@@ -86,8 +106,8 @@ Notes write_elmer(const TetMesh& mesh, const std::filesystem::path& file, const 
     out << "! written by scan2fea\n";
     if (!options.provenance.empty()) out << "! " << one_line(options.provenance) << "\n";
     if (!mesh.unit.empty()) out << "! " << unit_comment(mesh.unit) << "\n";
-    write_names(out, "body", "EALL", of_elements, bodies);
-    write_names(out, "boundary", "SALL", of_faces, boundaries);
+    write_names(out, "body", options.set_prefix + "EALL", of_elements, bodies);
+    write_names(out, "boundary", options.set_prefix + "SALL", of_faces, boundaries);
   }
   const std::array<OutputFile*, 5> all{&nodes, &elements, &boundary, &names, &header};
   for (OutputFile* output : all) output->finish();  // before the first is in place

@@ -168,7 +168,7 @@ class Writer {
 
 Notes write_exodus(const TetMesh& given, const std::filesystem::path& file, const FileOptions& options) {
   Notes notes;
-  const TetMesh mesh = with_whole_sets(given, notes);
+  const TetMesh mesh = with_whole_sets(given, options.set_prefix, notes);
   const std::vector<std::string> elements = names_for(mesh.element_sets, rules, {}, notes);
   // EALL, the last one, is a block only where there is no other.
   const std::size_t named = mesh.element_sets.size() - 1;

@@ -24,30 +24,48 @@
 namespace scan2fea {
 namespace {
 
-constexpr Holdings all{.node_sets = true, .face_sets = true, .element_sets = true, .unit = true, .second_order = true};
+// Of readers that keep numbers in 32 bits.
+constexpr std::uint64_t largest_int = 2147483647;
+constexpr Holdings all_to(std::uint64_t largest_number) {
+  return {.node_sets = true,
+          .face_sets = true,
+          .element_sets = true,
+          .unit = true,
+          .second_order = true,
+          .faces_between = true,
+          .largest_number = largest_number};
+}
+constexpr Holdings all = all_to(largest_int);
+constexpr Holdings of_nastran = all_to(99999999), of_ansys = all_to(999999999);  // eight digits, nine
 constexpr Holdings of_viewers{.node_sets = true,
                               .face_sets = true,
                               .element_sets = true,
                               .unit = true,
                               .second_order = true,
-                              .element_fields = true};
-constexpr Holdings sets_and_unit{.node_sets = true, .face_sets = true, .unit = true};  // of a surface
+                              .element_fields = true,
+                              .faces_between = true};
+// Of a surface.
+constexpr Holdings sets_and_unit{.node_sets = true, .face_sets = true, .unit = true};
+constexpr Holdings numbered{.node_sets = true, .face_sets = true, .unit = true, .largest_number = largest_int};
+constexpr Holdings of_nastran_surface{
+    .node_sets = true, .face_sets = true, .unit = true, .largest_number = of_nastran.largest_number};
 
 constexpr Holdings only_unit{.unit = true};
-constexpr Holdings of_elmer{.face_sets = true, .element_sets = true, .unit = true, .second_order = true};
+constexpr Holdings of_elmer{
+    .face_sets = true, .element_sets = true, .unit = true, .second_order = true, .faces_between = true};
 constexpr Holdings of_su2{.face_sets = true, .unit = true};
 
 constexpr auto formats = std::to_array<FileFormat>({
-    {".inp", "Abaqus, CalculiX", all, sets_and_unit, write_inp, write_inp, read_inp},
-    {".msh", "Gmsh", all, sets_and_unit, write_msh, write_msh, read_msh},
+    {".inp", "Abaqus, CalculiX", all, numbered, write_inp, write_inp, read_inp},
+    {".msh", "Gmsh", all, numbered, write_msh, write_msh, read_msh},
     {".vtu", "VTK", of_viewers, sets_and_unit, write_vtu, write_vtu, read_vtk_xml},
-    {".bdf", "Nastran", all, sets_and_unit, write_bdf, write_bdf, read_bdf},
-    {".nas", "Nastran", all, sets_and_unit, write_bdf, write_bdf, read_bdf},
-    {".unv", "I-DEAS, Salome", all, sets_and_unit, write_unv, write_unv, read_unv},
-    {".med", "Salome, Code_Aster", all, sets_and_unit, write_med, write_med, read_med},
+    {".bdf", "Nastran", of_nastran, of_nastran_surface, write_bdf, write_bdf, read_bdf},
+    {".nas", "Nastran", of_nastran, of_nastran_surface, write_bdf, write_bdf, read_bdf},
+    {".unv", "I-DEAS, Salome", all, numbered, write_unv, write_unv, read_unv},
+    {".med", "Salome, Code_Aster", all, numbered, write_med, write_med, read_med},
     {".xdmf", "DOLFINx", of_viewers, {}, write_xdmf, nullptr, read_xdmf},
     {".mail", "Code_Aster", all, {}, write_mail, nullptr, read_mail},
-    {".cdb", "ANSYS", all, {}, write_cdb, nullptr, read_cdb},
+    {".cdb", "ANSYS", of_ansys, {}, write_cdb, nullptr, read_cdb},
     {".header", "Elmer", of_elmer, {}, write_elmer, nullptr, read_elmer},
     {".exo", "Exodus II", all, sets_and_unit, write_exodus, write_exodus, read_exodus},
     {".e", "Exodus II", all, sets_and_unit, write_exodus, write_exodus, read_exodus},
@@ -92,6 +110,46 @@ void add_losses(const Mesh& mesh, const Holdings& holds, const std::string& file
   tell(holds.node_sets, "sets of nodes", names_of(mesh.node_sets));
   tell(holds.face_sets, "sets of faces", names_of(mesh.face_sets));
   tell(holds.unit, "unit", mesh.unit);
+}
+
+// The mesh without faces between bodies, and the names of the sets that nothing is left of.
+std::string drop_faces_between(TetMesh& mesh) {
+  const std::size_t outer = mesh.outer_faces();
+  mesh.boundary.resize(outer);
+  mesh.faces_between = 0;
+  std::vector<NamedSet> kept, dropped;
+  for (NamedSet& set : mesh.face_sets) {
+    const bool was_empty = set.members.empty();
+    std::erase_if(set.members, [&](std::uint32_t f) { return f >= outer; });
+    (set.members.empty() && !was_empty ? dropped : kept).push_back(std::move(set));
+  }
+  mesh.face_sets = std::move(kept);
+  return names_of(dropped);
+}
+
+// Whatever the format does not hold of what the options ask for is noted; numbers that do not fit are an error.
+void check_numbers(const FileFormat& format, const Holdings& holds, std::size_t nodes, std::size_t elements,
+                   const FileOptions& options, const std::string& file, Notes& notes) {
+  if (options.numbers == Numbering{}) return;
+  if (holds.largest_number == 0) {
+    notes.push_back(file + " holds no numbers of nodes and elements: left out the first ones that were given");
+    return;
+  }
+  const std::uint64_t last = std::max(options.numbers.node(nodes), options.numbers.element(elements)) - 1;
+  if (last > holds.largest_number)
+    throw WrongUsage({.what = "a number is too large for " + std::string(format.programs),
+                      .where = file,
+                      .value = std::to_string(last),
+                      .limit = std::to_string(holds.largest_number),
+                      .advice = "smaller --first-node, --first-element"});
+}
+
+template <class Mesh>
+void put_prefix(const std::string& prefix, Mesh& mesh) {
+  for (auto* sets : {&mesh.node_sets, &mesh.face_sets})
+    for (NamedSet& set : *sets) set.name.insert(0, prefix);
+  if constexpr (requires { mesh.element_sets; })
+    for (NamedSet& set : mesh.element_sets) set.name.insert(0, prefix);
 }
 
 TetMesh without_mid_edge_nodes(const TetMesh& mesh) {
@@ -156,7 +214,21 @@ Notes write_volume(const TetMesh& mesh, const std::filesystem::path& file, const
   const bool lowers_order = mesh.order() == 2 && !format.volume->second_order;
   if (lowers_order)
     notes.push_back(file.string() + " holds no elements of second order: left out the nodes in the middle of edges");
-  for (std::string& note : format.write_volume(lowers_order ? without_mid_edge_nodes(mesh) : mesh, file, options))
+  check_numbers(format, *format.volume, mesh.nodes.size(), mesh.tetrahedra.size() + mesh.boundary.size(), options,
+                file.string(), notes);
+  std::optional<TetMesh> changed;
+  if (lowers_order) changed = without_mid_edge_nodes(mesh);
+  if (mesh.faces_between > 0 && !format.volume->faces_between) {
+    if (!changed) changed = mesh;
+    const std::string dropped = drop_faces_between(*changed);
+    if (format.volume->face_sets)  // else told with the other sets
+      notes.push_back(file.string() + " holds no faces between bodies: left out " + dropped);
+  }
+  if (!options.set_prefix.empty()) {
+    if (!changed) changed = mesh;
+    put_prefix(options.set_prefix, *changed);
+  }
+  for (std::string& note : format.write_volume(changed ? *changed : mesh, file, options))
     notes.push_back(std::move(note));
   return notes;
 }
@@ -166,11 +238,19 @@ Notes write_surface(const NamedSurface& surface, const std::filesystem::path& fi
   const FileFormat& format = *find_format(file);
   Notes notes;
   add_losses(surface, *format.surface, file.string(), notes);
-  for (std::string& note : format.write_surface(surface, file, options)) notes.push_back(std::move(note));
+  check_numbers(format, *format.surface, surface.mesh.vertices.size(), surface.mesh.triangles.size(), options,
+                file.string(), notes);
+  NamedSurface prefixed;
+  if (!options.set_prefix.empty()) put_prefix(options.set_prefix, prefixed = surface);
+  for (std::string& note : format.write_surface(options.set_prefix.empty() ? surface : prefixed, file, options))
+    notes.push_back(std::move(note));
   return notes;
 }
 
-NamedSurface named_boundary(const TetMesh& mesh, Notes& notes) {
+NamedSurface named_boundary(const TetMesh& given, Notes& notes) {
+  TetMesh mesh = given;
+  if (mesh.faces_between > 0)
+    notes.push_back("the boundary has no faces between bodies: left out " + drop_faces_between(mesh));
   NamedSurface surface{.mesh = {}, .node_sets = {}, .face_sets = mesh.face_sets, .unit = mesh.unit};
   std::vector<std::uint32_t> renumbered(mesh.nodes.size(), 0), origin;
   for (const BoundaryFace f : mesh.boundary) {

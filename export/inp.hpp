@@ -27,7 +27,7 @@ namespace scan2fea {
 Notes write_inp(const TetMesh& mesh, const std::filesystem::path& file, const FileOptions& options = {});
 
 // What write_inp calls the sets of a mesh; notes those that had to be changed.
-WrittenNames names_in_inp(const TetMesh& mesh, Notes& notes);
+WrittenNames names_in_inp(const TetMesh& mesh, const std::string& prefix, Notes& notes);
 
 // As elements S3, sets of faces as *ELSET.
 Notes write_inp(const NamedSurface& surface, const std::filesystem::path& file, const FileOptions& options = {});

@@ -33,34 +33,34 @@ void write_header(TextOutput& out, const std::vector<Vec3>& nodes, const std::st
   out << "** bounding box, high: " << box.high.x() << " " << box.high.y() << " " << box.high.z() << "\n";
 }
 
-void write_nodes(TextOutput& out, const std::vector<Vec3>& nodes) {
-  out << "*NODE, NSET=NALL\n";
+void write_nodes(TextOutput& out, const std::vector<Vec3>& nodes, const FileOptions& options) {
+  out << "*NODE, NSET=" << options.set_prefix << "NALL\n";
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     const Vec3& p = nodes[n];
-    out << n + 1 << ", " << p.x() << ", " << p.y() << ", " << p.z() << "\n";
+    out << options.numbers.node(n) << ", " << p.x() << ", " << p.y() << ", " << p.z() << "\n";
   }
 }
 
-void write_elements(TextOutput& out, const TetMesh& mesh) {
-  out << (mesh.order() == 2 ? "*ELEMENT, TYPE=C3D10, ELSET=EALL\n" : "*ELEMENT, TYPE=C3D4, ELSET=EALL\n");
+void write_elements(TextOutput& out, const TetMesh& mesh, const FileOptions& options) {
+  out << "*ELEMENT, TYPE=" << (mesh.order() == 2 ? "C3D10" : "C3D4") << ", ELSET=" << options.set_prefix << "EALL\n";
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
-    out << t + 1;
-    for (const std::uint32_t n : mesh.tetrahedra[t]) out << "," << std::uint64_t{n} + 1;
+    out << options.numbers.element(t);
+    for (const std::uint32_t n : mesh.tetrahedra[t]) out << "," << options.numbers.node(n);
     if (mesh.order() == 2)
-      for (const std::uint32_t n : mesh.mid_edge_nodes[t]) out << "," << std::uint64_t{n} + 1;
+      for (const std::uint32_t n : mesh.mid_edge_nodes[t]) out << "," << options.numbers.node(n);
     out << "\n";
   }
 }
 
 // Ten numbers of up to ten digits and their commas keep within a line of CalculiX.
-void write_numbers(TextOutput& out, const std::vector<std::uint32_t>& indices) {
+void write_numbers(TextOutput& out, const std::vector<std::uint32_t>& indices, std::uint64_t first) {
   constexpr std::size_t per_line = 10;
   for (std::size_t i = 0; i < indices.size(); ++i)
-    out << std::uint64_t{indices[i]} + 1 << (i + 1 == indices.size() || (i + 1) % per_line == 0 ? "\n" : ", ");
+    out << first + indices[i] << (i + 1 == indices.size() || (i + 1) % per_line == 0 ? "\n" : ", ");
 }
 
 void write_surface_set(TextOutput& out, const TetMesh& mesh, const std::string& name,
-                       std::span<const std::uint32_t> faces) {
+                       std::span<const std::uint32_t> faces, const Numbering& numbers) {
   if (faces.empty()) return;
   std::array<std::vector<std::uint32_t>, 4> elements;
   for (const std::uint32_t i : faces) elements[mesh.boundary[i].face].push_back(mesh.boundary[i].tetrahedron);
@@ -68,27 +68,27 @@ void write_surface_set(TextOutput& out, const TetMesh& mesh, const std::string& 
     if (elements[f].empty()) continue;
     std::sort(elements[f].begin(), elements[f].end());
     out << "*ELSET, ELSET=" << name << "_S" << f + 1 << "\n";
-    write_numbers(out, elements[f]);
+    write_numbers(out, elements[f], numbers.first_element);
   }
   out << "*SURFACE, NAME=" << name << ", TYPE=ELEMENT\n";
   for (std::size_t f = 0; f < 4; ++f)
     if (!elements[f].empty()) out << name << "_S" << f + 1 << ", S" << f + 1 << "\n";
   out << "*NSET, NSET=" << name << "_NODES\n";
-  write_numbers(out, nodes_of_faces(mesh, faces));
+  write_numbers(out, nodes_of_faces(mesh, faces), numbers.first_node);
 }
 
 void write_sets(TextOutput& out, const char* keyword, std::span<const NamedSet> sets,
-                std::span<const std::string> names) {
+                std::span<const std::string> names, std::uint64_t first) {
   for (std::size_t s = 0; s < sets.size(); ++s) {
     out << keyword << names[s] << "\n";
-    write_numbers(out, sets[s].members);
+    write_numbers(out, sets[s].members, first);
   }
 }
 
 // CalculiX takes 80 characters, of which a surface's parts need six.
 constexpr NameRules rules{.longest = 74, .upper_case = true, .allowed = "_-.", .starts_with_letter = true};
 
-Notes determinant_notes(const TetMesh& mesh, const std::filesystem::path& file) {
+Notes determinant_notes(const TetMesh& mesh, const std::filesystem::path& file, const Numbering& numbers) {
   const SmallestDeterminant smallest = smallest_determinant(mesh);
   if (smallest.value >= calculix_smallest_determinant || mesh.tetrahedra.empty()) return {};
   const auto text = [](double value) {
@@ -96,7 +96,7 @@ Notes determinant_notes(const TetMesh& mesh, const std::filesystem::path& file) 
     return std::string(characters, write_number(characters, value));
   };
   std::string note = file.string() + ": CalculiX will refuse element " +
-                     std::to_string(std::uint64_t{smallest.tetrahedron} + 1) + ": Jacobian determinant " +
+                     std::to_string(numbers.element(smallest.tetrahedron)) + ": Jacobian determinant " +
                      text(smallest.value) + " (limit: " + text(calculix_smallest_determinant) + ")";
   if (smallest.value > 0) note += "; try: a smaller unit of length, millimetres for metres";
   return {note};
@@ -105,9 +105,9 @@ Notes determinant_notes(const TetMesh& mesh, const std::filesystem::path& file) 
 }  // namespace
 
 // The parts of a surface and its nodes are named after it, and element and node sets must not have these names.
-WrittenNames names_in_inp(const TetMesh& mesh, Notes& notes) {
-  WrittenNames names{.nodes = {}, .faces = names_for(mesh.face_sets, rules, {}, notes), .elements = {}};
-  std::vector<std::string> parts, nodes;
+WrittenNames names_in_inp(const TetMesh& mesh, const std::string& prefix, Notes& notes) {
+  std::vector<std::string> parts = taken_with_prefix(prefix), nodes = parts;
+  WrittenNames names{.nodes = {}, .faces = names_for(mesh.face_sets, rules, parts, notes), .elements = {}};
   for (const std::string& name : names.faces) {
     for (const char* end : {"_S1", "_S2", "_S3", "_S4"}) parts.push_back(name + end);
     nodes.push_back(name + "_NODES");
@@ -118,24 +118,26 @@ WrittenNames names_in_inp(const TetMesh& mesh, Notes& notes) {
 }
 
 Notes write_inp(const TetMesh& mesh, const std::filesystem::path& file, const FileOptions& options) {
-  Notes notes = determinant_notes(mesh, file);
-  const WrittenNames names = names_in_inp(mesh, notes);
+  Notes notes = determinant_notes(mesh, file, options.numbers);
+  const WrittenNames names = names_in_inp(mesh, options.set_prefix, notes);
   OutputFile output(file);
   {
     TextOutput out(output.stream());
     write_header(out, mesh.nodes, mesh.unit, options);
-    out << "** " << mesh.nodes.size() << " nodes, " << mesh.tetrahedra.size() << " tetrahedra, " << mesh.boundary.size()
+    out << "** " << mesh.nodes.size() << " nodes, " << mesh.tetrahedra.size() << " tetrahedra, " << mesh.outer_faces()
         << " boundary faces\n";
-    write_comment(out, "sets: NALL (nodes), EALL (elements), SALL (surface), SALL_NODES (nodes of the surface)");
-    write_nodes(out, mesh.nodes);
-    write_elements(out, mesh);
-    write_sets(out, "*ELSET, ELSET=", mesh.element_sets, names.elements);
-    write_sets(out, "*NSET, NSET=", mesh.node_sets, names.nodes);
-    std::vector<std::uint32_t> all(mesh.boundary.size());
+    const std::string& prefix = options.set_prefix;
+    write_comment(out, "sets: " + prefix + "NALL (nodes), " + prefix + "EALL (elements), " + prefix +
+                           "SALL (surface), " + prefix + "SALL_NODES (nodes of the surface)");
+    write_nodes(out, mesh.nodes, options);
+    write_elements(out, mesh, options);
+    write_sets(out, "*ELSET, ELSET=", mesh.element_sets, names.elements, options.numbers.first_element);
+    write_sets(out, "*NSET, NSET=", mesh.node_sets, names.nodes, options.numbers.first_node);
+    std::vector<std::uint32_t> all(mesh.outer_faces());
     std::iota(all.begin(), all.end(), 0U);
-    write_surface_set(out, mesh, "SALL", all);
+    write_surface_set(out, mesh, prefix + "SALL", all, options.numbers);
     for (std::size_t s = 0; s < mesh.face_sets.size(); ++s)
-      write_surface_set(out, mesh, names.faces[s], mesh.face_sets[s].members);
+      write_surface_set(out, mesh, names.faces[s], mesh.face_sets[s].members, options.numbers);
   }
   output.commit();
   return notes;
@@ -143,21 +145,23 @@ Notes write_inp(const TetMesh& mesh, const std::filesystem::path& file, const Fi
 
 Notes write_inp(const NamedSurface& surface, const std::filesystem::path& file, const FileOptions& options) {
   Notes notes;
-  const std::vector<std::string> elements = names_for(surface.face_sets, rules, {}, notes);
-  const std::vector<std::string> nodes = names_for(surface.node_sets, rules, {}, notes);
+  const std::vector<std::string> elements =
+      names_for(surface.face_sets, rules, taken_with_prefix(options.set_prefix), notes);
+  const std::vector<std::string> nodes =
+      names_for(surface.node_sets, rules, taken_with_prefix(options.set_prefix), notes);
   OutputFile output(file);
   {
     TextOutput out(output.stream());
     write_header(out, surface.mesh.vertices, surface.unit, options);
-    write_nodes(out, surface.mesh.vertices);
-    out << "*ELEMENT, TYPE=S3, ELSET=EALL\n";
+    write_nodes(out, surface.mesh.vertices, options);
+    out << "*ELEMENT, TYPE=S3, ELSET=" << options.set_prefix << "EALL\n";
     for (std::size_t t = 0; t < surface.mesh.triangles.size(); ++t) {
-      out << t + 1;
-      for (const std::uint32_t v : surface.mesh.triangles[t]) out << "," << std::uint64_t{v} + 1;
+      out << options.numbers.element(t);
+      for (const std::uint32_t v : surface.mesh.triangles[t]) out << "," << options.numbers.node(v);
       out << "\n";
     }
-    write_sets(out, "*ELSET, ELSET=", surface.face_sets, elements);
-    write_sets(out, "*NSET, NSET=", surface.node_sets, nodes);
+    write_sets(out, "*ELSET, ELSET=", surface.face_sets, elements, options.numbers.first_element);
+    write_sets(out, "*NSET, NSET=", surface.node_sets, nodes, options.numbers.first_node);
   }
   output.commit();
   return notes;

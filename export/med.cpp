@@ -103,7 +103,7 @@ WrittenNames names_in_med(const TetMesh& mesh, Notes& notes) {
   sets.node_sets = mesh.node_sets;
   sets.face_sets = mesh.face_sets;
   sets.element_sets = mesh.element_sets;
-  const TetMesh whole = with_whole_sets(sets, notes);
+  const TetMesh whole = with_whole_sets(sets, {}, notes);
   return {.nodes = names_for(whole.node_sets, rules, {}, notes),
           .faces = names_for(whole.face_sets, rules, {}, notes),
           .elements = names_for(whole.element_sets, rules, {}, notes)};
@@ -111,13 +111,15 @@ WrittenNames names_in_med(const TetMesh& mesh, Notes& notes) {
 
 Notes write_med(const TetMesh& given, const std::filesystem::path& file, const FileOptions& options) {
   Notes notes;
-  const TetMesh mesh = with_whole_sets(given, notes);
+  const TetMesh mesh = with_whole_sets(given, options.set_prefix, notes);
   const bool second = mesh.order() == 2;
   MedMesh med{.coordinates = coordinates_of(mesh.nodes),
               .nodes = families_of(mesh.node_sets, mesh.nodes.size(), notes),
               .cells = {},
               .unit = mesh.unit,
-              .description = "written by scan2fea: " + options.provenance};
+              .description = "written by scan2fea: " + options.provenance,
+              .first_node = options.numbers.first_node,
+              .first_element = options.numbers.first_element};
   MedCells& tetrahedra = med.cells.emplace_back();
   tetrahedra.type = second ? med_tetrahedron_10 : med_tetrahedron_4;
   tetrahedra.families = families_of(mesh.element_sets, mesh.tetrahedra.size(), notes);
@@ -144,7 +146,9 @@ Notes write_med(const NamedSurface& surface, const std::filesystem::path& file, 
               .nodes = families_of(surface.node_sets, surface.mesh.vertices.size(), notes),
               .cells = {},
               .unit = surface.unit,
-              .description = "written by scan2fea: " + options.provenance};
+              .description = "written by scan2fea: " + options.provenance,
+              .first_node = options.numbers.first_node,
+              .first_element = options.numbers.first_element};
   MedCells& triangles = med.cells.emplace_back();
   triangles.type = med_triangle_3;
   triangles.families = families_of(surface.face_sets, surface.mesh.triangles.size(), notes);

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <map>
 #include <med.h>
+#include <numeric>
 #include <stdexcept>
 
 namespace scan2fea {
@@ -63,6 +64,15 @@ std::vector<med_int> numbers_of(const MedFamilies& families, int sign, int first
   return numbers;
 }
 
+// Numbers that begin at 1 are MED's own.
+void write_numbers(med_idt file, med_entity_type entity, med_geometry_type type, med_int count, std::uint64_t first) {
+  if (first == 1) return;
+  std::vector<med_int> numbers(static_cast<std::size_t>(count));
+  std::iota(numbers.begin(), numbers.end(), static_cast<med_int>(first));
+  require(MEDmeshEntityNumberWr(file, mesh_name, MED_NO_DT, MED_NO_IT, entity, type, count, numbers.data()) >= 0,
+          "the numbers of nodes or elements cannot be written");
+}
+
 std::string write(const MedMesh& mesh) {
   med_memfile image MED_MEMFILE_INIT;
   MedFile file(MEDmemFileOpen("mesh.med", &image, MED_FALSE, MED_ACC_CREAT));
@@ -85,6 +95,8 @@ std::string write(const MedMesh& mesh) {
   require(MEDmeshEntityFamilyNumberWr(file.id(), mesh_name, MED_NO_DT, MED_NO_IT, MED_NODE, MED_NONE, points,
                                       of_nodes.data()) >= 0,
           "the families of nodes cannot be written");
+  write_numbers(file.id(), MED_NODE, MED_NONE, points, mesh.first_node);
+  std::uint64_t first_element = mesh.first_element;
   for (const MedCells& cells : mesh.cells) {
     const auto count = static_cast<med_int>(cells.families.family.size());
     if (count == 0) continue;
@@ -97,6 +109,8 @@ std::string write(const MedMesh& mesh) {
     require(MEDmeshEntityFamilyNumberWr(file.id(), mesh_name, MED_NO_DT, MED_NO_IT, MED_CELL, cells.type, count,
                                         numbers.data()) >= 0,
             "the families of elements cannot be written");
+    if (mesh.first_element != 1) write_numbers(file.id(), MED_CELL, cells.type, count, first_element);
+    first_element += static_cast<std::uint64_t>(count);
   }
   file.close();
   std::string bytes(static_cast<const char*>(image.app_image_ptr), image.app_image_size);

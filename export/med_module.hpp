@@ -31,6 +31,7 @@ struct MedMesh {
   MedFamilies nodes;
   std::vector<MedCells> cells;
   std::string unit, description;
+  std::uint64_t first_node = 1, first_element = 1;  // their numbers
 };
 
 // The file's bytes are made in memory: where a disk fills while HDF5 writes to it, HDF5 ends the process with a crash.

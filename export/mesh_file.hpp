@@ -4,6 +4,7 @@
 #include "preproc/mesh/named_sets.hpp"
 #include "preproc/mesh/tet_mesh.hpp"
 
+#include <cstdint>
 #include <string>
 #include <variant>
 #include <vector>
@@ -26,11 +27,26 @@ struct ElementField {
   std::vector<double> values;
 };
 
+// Numbers of nodes and elements in files that have them, so that several meshes go into one deck: from the first on, in
+// the order of the mesh. Of elements that are triangles, behind the tetrahedra.
+struct Numbering {
+  std::uint64_t first_node = 1, first_element = 1;
+
+  std::uint64_t node(std::uint64_t index) const { return first_node + index; }
+  std::uint64_t element(std::uint64_t index) const { return first_element + index; }
+  // Of what else has numbers, properties and groups: there are no more of them than elements, so that they meet none of
+  // another mesh's.
+  std::uint64_t other(std::uint64_t number) const { return first_element - 1 + number; }
+  bool operator==(const Numbering&) const = default;
+};
+
 struct FileOptions {
-  std::string provenance;                     // where the mesh comes from, one line, for the headers that have room
+  std::string provenance = {};                // where the mesh comes from, one line, for the headers that have room
   MshVersion msh_version = MshVersion::v4_1;  // Gmsh's own default; older readers (Elmer, Code_Aster, SU2) want 2.2
-  std::vector<ElementField> fields;           // written by the formats of viewers
+  std::vector<ElementField> fields = {};      // written by the formats of viewers
   bool ascii = false;                         // STL and PLY, which are binary otherwise
+  std::string set_prefix = {};                // before the names of all sets, also of NALL, EALL and SALL
+  Numbering numbers = {};
 };
 
 // What the user should know of a file that was written all the same; each entry is one line.

@@ -2,8 +2,8 @@
 #include "export/msh.hpp"
 #include "export/set_names.hpp"
 #include "export/text_output.hpp"
-#include "preproc/mesh/unit_comment.hpp"
 #include "preproc/mesh/output_file.hpp"
+#include "preproc/mesh/unit_comment.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -20,40 +20,40 @@ struct Group {
   std::vector<std::uint64_t> nodes;  // node numbers, of all elements
   SetParts parts;                    // of the elements
   std::vector<std::string> names;    // of the sets
-  const char* name_of_rest;          // of the elements in no set; null where these are not written
+  std::string name_of_rest;          // of the elements in no set; empty where these are not written
   std::size_t first_tag = 0;         // physical tag of the first set
   std::size_t elements() const { return parts.part.size(); }
 };
 
 // Of the elements in no set, as it always was; those of sets follow. For GetDP a number is one region, whatever the
 // dimension.
-std::size_t tag_of_rest(const Group& group) {
-  return group.dimension == 2 ? 1 : 2;
+std::size_t tag_of_rest(const Group& group, const Numbering& numbers) {
+  return numbers.other(group.dimension == 2 ? 1 : 2);
 }
 
-void number_sets(std::vector<Group>& groups) {
-  std::size_t next = 3;
+void number_sets(std::vector<Group>& groups, const Numbering& numbers) {
+  std::size_t next = numbers.other(3);
   for (Group& group : groups) {
     group.first_tag = next;
     next += group.names.size();
   }
 }
 
-std::vector<std::size_t> physical_tags(const Group& group, std::size_t part) {
+std::vector<std::size_t> physical_tags(const Group& group, std::size_t part, const Numbering& numbers) {
   std::vector<std::size_t> tags;
   for (const std::uint32_t s : group.parts.of[part]) tags.push_back(group.first_tag + s);
-  if (tags.empty() && group.name_of_rest != nullptr) tags.push_back(tag_of_rest(group));
+  if (tags.empty() && !group.name_of_rest.empty()) tags.push_back(tag_of_rest(group, numbers));
   return tags;
 }
 
-Group tetrahedra(const TetMesh& mesh, Notes& notes) {
+Group tetrahedra(const TetMesh& mesh, const std::string& prefix, Notes& notes) {
   Group group{.dimension = 3,
               .type = mesh.order() == 2 ? gmsh_tetrahedron_10 : gmsh_tetrahedron_4,
               .nodes_per_element = mesh.order() == 2 ? 10U : 4U,
               .nodes = {},
               .parts = set_parts(mesh.element_sets, mesh.tetrahedra.size()),
               .names = names_for(mesh.element_sets, {.allowed = " _-.+:/()"}, {}, notes),
-              .name_of_rest = "EALL"};
+              .name_of_rest = prefix + "EALL"};
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
     for (const std::uint32_t n : mesh.tetrahedra[t]) group.nodes.push_back(std::uint64_t{n} + 1);
     if (mesh.order() == 2)
@@ -62,14 +62,14 @@ Group tetrahedra(const TetMesh& mesh, Notes& notes) {
   return group;
 }
 
-Group triangles(const TetMesh& mesh, Notes& notes) {
+Group triangles(const TetMesh& mesh, const std::string& prefix, Notes& notes) {
   Group group{.dimension = 2,
               .type = mesh.order() == 2 ? gmsh_triangle_6 : gmsh_triangle_3,
               .nodes_per_element = mesh.order() == 2 ? 6U : 3U,
               .nodes = {},
               .parts = set_parts(mesh.face_sets, mesh.boundary.size()),
               .names = names_for(mesh.face_sets, {.allowed = " _-.+:/()"}, {}, notes),
-              .name_of_rest = "SALL"};
+              .name_of_rest = prefix + "SALL"};
   for (const BoundaryFace f : mesh.boundary) {
     for (const std::uint32_t n : boundary_triangle(mesh, f)) group.nodes.push_back(std::uint64_t{n} + 1);
     if (mesh.order() == 2)
@@ -78,14 +78,14 @@ Group triangles(const TetMesh& mesh, Notes& notes) {
   return group;
 }
 
-Group triangles(const NamedSurface& surface, Notes& notes) {
+Group triangles(const NamedSurface& surface, const std::string& prefix, Notes& notes) {
   Group group{.dimension = 2,
               .type = gmsh_triangle_3,
               .nodes_per_element = 3,
               .nodes = {},
               .parts = set_parts(surface.face_sets, surface.mesh.triangles.size()),
               .names = names_for(surface.face_sets, {.allowed = " _-.+:/()"}, {}, notes),
-              .name_of_rest = "SALL"};
+              .name_of_rest = prefix + "SALL"};
   for (const Triangle& t : surface.mesh.triangles)
     for (const std::uint32_t n : t) group.nodes.push_back(std::uint64_t{n} + 1);
   return group;
@@ -99,7 +99,7 @@ Group points(const std::vector<NamedSet>& sets, std::size_t nodes, Notes& notes)
               .nodes = {},
               .parts = {},
               .names = names_for(sets, {.allowed = " _-.+:/()"}, {}, notes),
-              .name_of_rest = nullptr};
+              .name_of_rest = {}};
   const SetParts parts = set_parts(sets, nodes);
   group.parts.of = parts.of;
   for (std::uint32_t n = 0; n < nodes; ++n) {
@@ -113,9 +113,9 @@ Group points(const std::vector<NamedSet>& sets, std::size_t nodes, Notes& notes)
 class Writer {
  public:
   // Groups from the highest dimension down.
-  Writer(TextOutput& out, const std::vector<Vec3>& nodes, std::vector<Group> groups)
-      : out_(out), nodes_(nodes), groups_(std::move(groups)) {
-    number_sets(groups_);
+  Writer(TextOutput& out, const std::vector<Vec3>& nodes, std::vector<Group> groups, const Numbering& numbers)
+      : out_(out), nodes_(nodes), groups_(std::move(groups)), numbers_(numbers) {
+    number_sets(groups_, numbers_);
     for (const Group& group : groups_) {
       auto& members = members_.emplace_back(group.parts.of.size());
       for (std::uint32_t e = 0; e < group.elements(); ++e) members[group.parts.part[e]].push_back(e);
@@ -145,13 +145,14 @@ class Writer {
       ++blocks;
       elements += members.size();
     });
-    out_ << "$Elements\n" << blocks << " " << elements << " 1 " << elements << "\n";
-    std::uint64_t first = 1;  // the number of the group's first element
+    out_ << "$Elements\n"
+         << blocks << " " << elements << " " << numbers_.element(0) << " " << numbers_.element(elements) - 1 << "\n";
+    std::uint64_t first = numbers_.first_element;  // the number of the group's first element
     const Group* current = nullptr;
     for_each_part([&](const Group& group, std::size_t part, const auto& members) {
       if (current != nullptr && current != &group) first += current->elements();
       current = &group;
-      out_ << group.dimension << " " << part + 1 << " " << group.type << " " << members.size() << "\n";
+      out_ << group.dimension << " " << numbers_.other(part + 1) << " " << group.type << " " << members.size() << "\n";
       for (const std::uint32_t e : members) {
         out_ << first + e;
         write_nodes_of(group, e);
@@ -163,15 +164,15 @@ class Writer {
   void write_2() {
     out_ << "$Nodes\n" << nodes_.size() << "\n";
     for (std::size_t n = 0; n < nodes_.size(); ++n) {
-      out_ << n + 1 << " ";
+      out_ << numbers_.node(n) << " ";
       write_point(nodes_[n]);
     }
     std::size_t lines = 0;
     for_each_line_2([&](const Group&, std::uint32_t, std::size_t, std::size_t) { ++lines; });
     out_ << "$EndNodes\n$Elements\n" << lines << "\n";
-    std::size_t number = 0;
+    std::uint64_t number = numbers_.first_element;
     for_each_line_2([&](const Group& group, std::uint32_t e, std::size_t part, std::size_t tag) {
-      out_ << ++number << " " << group.type << " 2 " << tag << " " << part + 1;
+      out_ << number++ << " " << group.type << " 2 " << tag << " " << numbers_.other(part + 1);
       write_nodes_of(group, e);
     });
     out_ << "$EndElements\n";
@@ -190,7 +191,8 @@ class Writer {
     for (auto group = groups_.rbegin(); group != groups_.rend(); ++group) {
       const bool has_rest =
           std::find(group->parts.part.begin(), group->parts.part.end(), 0U) != group->parts.part.end();
-      if (group->name_of_rest != nullptr && has_rest) what(group->dimension, tag_of_rest(*group), group->name_of_rest);
+      if (!group->name_of_rest.empty() && has_rest)
+        what(group->dimension, tag_of_rest(*group, numbers_), group->name_of_rest);
       for (std::size_t s = 0; s < group->names.size(); ++s)
         what(group->dimension, group->first_tag + s, group->names[s]);
     }
@@ -210,7 +212,7 @@ class Writer {
     for (const Group& group : groups_)
       for (std::uint32_t e = 0; e < group.elements(); ++e) {
         const std::size_t part = group.parts.part[e];
-        const std::vector<std::size_t> tags = physical_tags(group, part);
+        const std::vector<std::size_t> tags = physical_tags(group, part, numbers_);
         for (std::size_t i = 0; i < (group.dimension == 3 ? 1 : tags.size()); ++i) what(group, e, part, tags[i]);
       }
   }
@@ -224,14 +226,14 @@ class Writer {
     for (const int dimension : {0, 2, 3})
       for_each_part([&](const Group& group, std::size_t part, const auto& members) {
         if (group.dimension != dimension) return;
-        out_ << part + 1;
+        out_ << numbers_.other(part + 1);
         if (dimension == 0) {
           const Vec3& p = nodes_[group.nodes[members.front()] - 1];
           out_ << " " << p.x() << " " << p.y() << " " << p.z();
         } else {
           for (const Vec3& p : {box.low, box.high}) out_ << " " << p.x() << " " << p.y() << " " << p.z();
         }
-        const std::vector<std::size_t> tags = physical_tags(group, part);
+        const std::vector<std::size_t> tags = physical_tags(group, part, numbers_);
         out_ << " " << tags.size();
         for (const std::size_t tag : tags) out_ << " " << tag;
         out_ << (dimension == 0 ? "\n" : " 0\n");
@@ -262,13 +264,14 @@ class Writer {
     std::size_t count = 0;
     for (const auto& parts : blocks)
       for (const auto& block : parts) count += block.empty() ? 0 : 1;
-    out_ << "$Nodes\n" << count << " " << nodes_.size() << " 1 " << nodes_.size() << "\n";
+    out_ << "$Nodes\n"
+         << count << " " << nodes_.size() << " " << numbers_.node(0) << " " << numbers_.node(nodes_.size()) - 1 << "\n";
     for (std::size_t g = 0; g < groups_.size(); ++g)
       for (std::size_t part = 0; part < blocks[g].size(); ++part) {
         const std::vector<std::uint32_t>& block = blocks[g][part];
         if (block.empty()) continue;
-        out_ << groups_[g].dimension << " " << part + 1 << " 0 " << block.size() << "\n";
-        for (const std::uint32_t n : block) out_ << std::uint64_t{n} + 1 << "\n";
+        out_ << groups_[g].dimension << " " << numbers_.other(part + 1) << " 0 " << block.size() << "\n";
+        for (const std::uint32_t n : block) out_ << numbers_.node(n) << "\n";
         for (const std::uint32_t n : block) write_point(nodes_[n]);
       }
     out_ << "$EndNodes\n";
@@ -282,13 +285,14 @@ class Writer {
 
   void write_nodes_of(const Group& group, std::uint32_t element) {
     for (std::size_t k = 0; k < group.nodes_per_element; ++k)
-      out_ << " " << group.nodes[element * group.nodes_per_element + k];
+      out_ << " " << numbers_.node(group.nodes[element * group.nodes_per_element + k] - 1);
     out_ << "\n";
   }
 
   TextOutput& out_;
   const std::vector<Vec3>& nodes_;
   std::vector<Group> groups_;
+  Numbering numbers_;
   std::vector<std::vector<std::vector<std::uint32_t>>> members_;  // elements of each part of each group
 };
 
@@ -297,7 +301,7 @@ void write(const std::vector<Vec3>& nodes, std::vector<Group> groups, const std:
   OutputFile output(file);
   {
     TextOutput out(output.stream());
-    Writer writer(out, nodes, std::move(groups));
+    Writer writer(out, nodes, std::move(groups), options.numbers);
     writer.write_header(unit, options);
     if (options.msh_version == MshVersion::v4_1)
       writer.write_4();
@@ -312,8 +316,8 @@ void write(const std::vector<Vec3>& nodes, std::vector<Group> groups, const std:
 Notes write_msh(const TetMesh& mesh, const std::filesystem::path& file, const FileOptions& options) {
   Notes notes;
   std::vector<Group> groups;
-  groups.push_back(tetrahedra(mesh, notes));
-  groups.push_back(triangles(mesh, notes));
+  groups.push_back(tetrahedra(mesh, options.set_prefix, notes));
+  groups.push_back(triangles(mesh, options.set_prefix, notes));
   groups.push_back(points(mesh.node_sets, mesh.nodes.size(), notes));
   if (options.msh_version == MshVersion::v2_2)
     for (const auto& sets : groups.front().parts.of)
@@ -327,7 +331,7 @@ Notes write_msh(const TetMesh& mesh, const std::filesystem::path& file, const Fi
 Notes write_msh(const NamedSurface& surface, const std::filesystem::path& file, const FileOptions& options) {
   Notes notes;
   std::vector<Group> groups;
-  groups.push_back(triangles(surface, notes));
+  groups.push_back(triangles(surface, options.set_prefix, notes));
   groups.push_back(points(surface.node_sets, surface.mesh.vertices.size(), notes));
   write(surface.mesh.vertices, std::move(groups), surface.unit, file, options);
   return notes;

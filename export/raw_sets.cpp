@@ -3,6 +3,7 @@
 #include "export/set_names.hpp"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 
 namespace scan2fea {
@@ -34,35 +35,67 @@ Triangle sorted(Triangle corners) {
   return corners;
 }
 
-// Finds boundary faces by their corners, or by element and face.
-class BoundaryIndex {
+// Finds faces by their corners, or by element and face: those of the boundary, and those between two elements, which
+// then are added to the mesh's.
+class FaceIndex {
  public:
-  explicit BoundaryIndex(const TetMesh& mesh) : mesh_(mesh) {}
+  explicit FaceIndex(TetMesh& mesh) : mesh_(mesh), outer_(mesh.outer_faces()) {}
 
   std::optional<std::uint32_t> find(const Triangle& corners) {
     if (by_corners_.empty()) {
-      for (std::uint32_t i = 0; i < mesh_.boundary.size(); ++i)
-        by_corners_.emplace_back(sorted(boundary_triangle(mesh_, mesh_.boundary[i])), i);
+      for (std::uint32_t i = 0; i < outer_; ++i) add_corners(by_corners_, mesh_.boundary[i], i);
       std::sort(by_corners_.begin(), by_corners_.end());
     }
-    const std::pair<Triangle, std::uint32_t> wanted(sorted(corners), 0);
-    const auto it = std::lower_bound(by_corners_.begin(), by_corners_.end(), wanted);
-    if (it == by_corners_.end() || it->first != wanted.first) return {};
-    return it->second;
+    if (const auto outer = find_in(by_corners_, corners)) return outer;
+    if (inner_.empty()) {
+      for (std::uint32_t t = 0; t < mesh_.tetrahedra.size(); ++t)
+        for (std::uint8_t k = 0; k < 4; ++k) add_corners(inner_, {t, k}, 4 * t + k);
+      std::sort(inner_.begin(), inner_.end());
+    }
+    const auto inner = find_in(inner_, corners);  // of the element with the smaller number
+    if (!inner) return {};
+    return between({*inner / 4, static_cast<std::uint8_t>(*inner % 4)});
   }
 
   // `find_boundary` orders by element and face.
-  std::optional<std::uint32_t> find(std::uint32_t element, std::uint8_t face) const {
+  std::optional<std::uint32_t> find(std::uint32_t element, std::uint8_t face) {
     const auto key = [](const BoundaryFace& f) { return std::pair(f.tetrahedron, f.face); };
-    const auto it = std::lower_bound(mesh_.boundary.begin(), mesh_.boundary.end(), std::pair(element, face),
+    const auto end = mesh_.boundary.begin() + static_cast<std::ptrdiff_t>(outer_);
+    const auto it = std::lower_bound(mesh_.boundary.begin(), end, std::pair(element, face),
                                      [&](const BoundaryFace& f, const auto& wanted) { return key(f) < wanted; });
-    if (it == mesh_.boundary.end() || key(*it) != std::pair(element, face)) return {};
-    return static_cast<std::uint32_t>(it - mesh_.boundary.begin());
+    if (it != end && key(*it) == std::pair(element, face))
+      return static_cast<std::uint32_t>(it - mesh_.boundary.begin());
+    return between({element, face});
   }
 
  private:
-  const TetMesh& mesh_;
-  std::vector<std::pair<Triangle, std::uint32_t>> by_corners_;
+  using Faces = std::vector<std::pair<Triangle, std::uint32_t>>;
+
+  void add_corners(Faces& faces, BoundaryFace f, std::uint32_t number) const {
+    faces.emplace_back(sorted(boundary_triangle(mesh_, f)), number);
+  }
+
+  static std::optional<std::uint32_t> find_in(const Faces& faces, const Triangle& corners) {
+    const std::pair<Triangle, std::uint32_t> wanted(sorted(corners), 0);
+    const auto it = std::lower_bound(faces.begin(), faces.end(), wanted);
+    if (it == faces.end() || it->first != wanted.first) return {};
+    return it->second;
+  }
+
+  std::uint32_t between(BoundaryFace f) {
+    const auto [at, is_new] =
+        between_.try_emplace({f.tetrahedron, f.face}, static_cast<std::uint32_t>(mesh_.boundary.size()));
+    if (is_new) {
+      mesh_.boundary.push_back(f);
+      ++mesh_.faces_between;
+    }
+    return at->second;
+  }
+
+  TetMesh& mesh_;
+  std::size_t outer_;
+  Faces by_corners_, inner_;
+  std::map<std::pair<std::uint32_t, std::uint8_t>, std::uint32_t> between_;
 };
 
 // A name is a line of text.
@@ -113,7 +146,7 @@ void add_sets(const RawMesh& raw, const FindNode& find_node, TetMesh& mesh, std:
   mesh.node_sets = node_sets(raw, find_node, warnings);
   if (raw.element_sets.empty() && raw.face_sets.empty()) return;
   const Index tetrahedra(raw.tetrahedron_numbers), triangles(raw.triangle_numbers);
-  BoundaryIndex boundary(mesh);
+  FaceIndex all_faces(mesh);
   for (const RawSet& set : raw.element_sets) {
     std::vector<std::uint32_t> elements, faces;
     std::size_t unknown = 0, inside = 0;
@@ -129,7 +162,7 @@ void add_sets(const RawMesh& raw, const FindNode& find_node, TetMesh& mesh, std:
           known = known && node;
           corners[k] = node.value_or(0);
         }
-        if (known) face = boundary.find(corners);
+        if (known) face = all_faces.find(corners);
         if (face)
           faces.push_back(*face);
         else
@@ -139,7 +172,7 @@ void add_sets(const RawMesh& raw, const FindNode& find_node, TetMesh& mesh, std:
       }
     }
     tell(unknown, "elements that are neither tetrahedra nor triangles are", set.name, warnings);
-    tell(inside, "triangles that are no faces of the boundary are", set.name, warnings);
+    tell(inside, "triangles that are no faces of elements are", set.name, warnings);
     const bool is_empty = elements.empty() && faces.empty();
     if (!elements.empty() || (is_empty && unknown + inside == 0)) add(mesh.element_sets, set.name, std::move(elements));
     if (!faces.empty()) add(mesh.face_sets, set.name, std::move(faces));
@@ -149,13 +182,13 @@ void add_sets(const RawMesh& raw, const FindNode& find_node, TetMesh& mesh, std:
     std::size_t inside = 0;
     for (const auto& [number, face] : set.faces) {
       const auto t = tetrahedra.find(number);
-      const auto found = t ? boundary.find(*t, face) : std::nullopt;
+      const auto found = t ? all_faces.find(*t, face) : std::nullopt;
       if (found)
         faces.push_back(*found);
       else
         ++inside;
     }
-    tell(inside, "faces that are not on the boundary are", set.name, warnings);
+    tell(inside, "faces of elements that are not there are", set.name, warnings);
     add(mesh.face_sets, set.name, std::move(faces));
   }
 }

@@ -35,6 +35,10 @@ bool is_reserved_set(std::string_view name) {
          (text.size() == 7 && text.starts_with("SALL_S") && text[6] >= '1' && text[6] <= '4');
 }
 
+bool is_whole_set(std::string_view name, std::string_view prefix) {
+  return upper(name.substr(0, prefix.size())) == upper(prefix) && is_reserved_set(name.substr(prefix.size()));
+}
+
 std::vector<std::string> names_for(std::span<const NamedSet> sets, const NameRules& rules,
                                    std::span<const std::string> taken, std::vector<std::string>& warnings) {
   std::set<std::string> used;
@@ -54,11 +58,20 @@ std::vector<std::string> names_for(std::span<const NamedSet> sets, const NameRul
   return names;
 }
 
-TetMesh with_whole_sets(const TetMesh& mesh, std::vector<std::string>& notes) {
+std::vector<std::string> taken_with_prefix(const std::string& prefix) {
+  std::vector<std::string> names;
+  if (!prefix.empty())
+    for (const char* name : {"NALL", "EALL", "SALL", "SALL_NODES", "SALL_S1", "SALL_S2", "SALL_S3", "SALL_S4"})
+      names.push_back(prefix + name);
+  return names;
+}
+
+TetMesh with_whole_sets(const TetMesh& mesh, const std::string& prefix, std::vector<std::string>& notes) {
   TetMesh whole = mesh;
-  const auto add = [&](std::vector<NamedSet>& sets, const char* name, std::size_t members) {
+  const auto add = [&](std::vector<NamedSet>& sets, const char* unprefixed, std::size_t members) {
+    const std::string name = prefix + unprefixed;
     for (NamedSet& set : sets) {
-      if (!is_reserved_set(set.name)) continue;
+      if (!is_reserved_set(set.name) && upper(set.name) != upper(name)) continue;
       notes.push_back("set " + set.name + " is named " + set.name + "_2 in the file");
       set.name += "_2";
     }
@@ -68,7 +81,7 @@ TetMesh with_whole_sets(const TetMesh& mesh, std::vector<std::string>& notes) {
     std::iota(all.members.begin(), all.members.end(), 0U);
   };
   add(whole.node_sets, "NALL", mesh.nodes.size());
-  add(whole.face_sets, "SALL", mesh.boundary.size());
+  add(whole.face_sets, "SALL", mesh.outer_faces());
   add(whole.element_sets, "EALL", mesh.tetrahedra.size());
   return whole;
 }

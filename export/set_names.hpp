@@ -14,6 +14,9 @@ namespace scan2fea {
 // NALL, EALL and SALL, which writers make of the mesh itself, and what INP makes SALL of; upper or lower case.
 bool is_reserved_set(std::string_view name);
 
+// The same with a prefix before them.
+bool is_whole_set(std::string_view name, std::string_view prefix);
+
 struct NameRules {
   std::size_t longest = 80;
   bool upper_case = false;
@@ -22,9 +25,12 @@ struct NameRules {
   bool keeps_reserved = false;  // of sets that `with_whole_sets` made
 };
 
-// The mesh with NALL, EALL and SALL as sets, for formats that have nothing else for them. Sets of these names are
-// renamed, which is noted.
-TetMesh with_whole_sets(const TetMesh& mesh, std::vector<std::string>& notes);
+// The mesh with NALL, EALL and SALL as sets, for formats that have nothing else for them; the prefix goes before their
+// names. Sets of these names are renamed, which is noted.
+TetMesh with_whole_sets(const TetMesh& mesh, const std::string& prefix, std::vector<std::string>& notes);
+
+// The names of the sets that all files have, as INP has them, with a prefix before them: not for others.
+std::vector<std::string> taken_with_prefix(const std::string& prefix);
 
 // One per set and in their order: no two alike, whatever the case, nor one like those that are `taken`. Each change
 // but that of case is told.

@@ -1,8 +1,8 @@
 #include "export/set_names.hpp"
 #include "export/su2.hpp"
 #include "export/text_output.hpp"
-#include "preproc/mesh/unit_comment.hpp"
 #include "preproc/mesh/output_file.hpp"
+#include "preproc/mesh/unit_comment.hpp"
 
 #include <algorithm>
 
@@ -35,7 +35,7 @@ Notes write_su2(const TetMesh& mesh, const std::filesystem::path& file, const Fi
     out << "NMARK= " << std::count_if(markers.begin(), markers.end(), [](const auto& m) { return !m.empty(); }) << "\n";
     for (std::size_t part = 0; part < markers.size(); ++part) {
       if (markers[part].empty()) continue;
-      out << "MARKER_TAG= " << (part == 0 ? "SALL" : part_name(parts, part, names))
+      out << "MARKER_TAG= " << (part == 0 ? options.set_prefix + "SALL" : part_name(parts, part, names))
           << "\nMARKER_ELEMS= " << markers[part].size() << "\n";
       for (const std::uint32_t f : markers[part]) {
         out << "5";

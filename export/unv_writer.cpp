@@ -65,10 +65,10 @@ void write_units(TextOutput& out, const std::string& unit) {
   end(out);
 }
 
-void write_nodes(TextOutput& out, const std::vector<Vec3>& nodes) {
+void write_nodes(TextOutput& out, const std::vector<Vec3>& nodes, const Numbering& numbers) {
   begin(out, "  2411");
   for (std::size_t n = 0; n < nodes.size(); ++n) {
-    write_integers(out, {n + 1, 1, 1, 11});
+    write_integers(out, {numbers.node(n), 1, 1, 11});
     write_reals(out, {nodes[n].x(), nodes[n].y(), nodes[n].z()});
   }
   end(out);
@@ -76,10 +76,10 @@ void write_nodes(TextOutput& out, const std::vector<Vec3>& nodes) {
 
 // Nodes of second order run along the edges: a corner, the middle behind it, the next corner.
 void write_triangle(TextOutput& out, std::uint64_t number, std::uint64_t property, const Triangle& corners,
-                    const Triangle* mid_edges) {
+                    const Triangle* mid_edges, const Numbering& numbers) {
   write_integers(out,
                  {number, mid_edges != nullptr ? 92U : 91U, property, property, 7, mid_edges != nullptr ? 6U : 3U});
-  const auto n = [](std::uint32_t index) { return std::uint64_t{index} + 1; };
+  const auto n = [&](std::uint32_t index) { return numbers.node(index); };
   if (mid_edges == nullptr)
     write_integers(out, {n(corners[0]), n(corners[1]), n(corners[2])});
   else
@@ -88,12 +88,13 @@ void write_triangle(TextOutput& out, std::uint64_t number, std::uint64_t propert
 }
 
 // `parts`: physical and material properties, by which Gmsh, which reads no groups, tells sets from one another.
-void write_tetrahedra(TextOutput& out, const TetMesh& mesh, const SetParts& parts) {
-  const auto n = [](std::uint32_t index) { return std::uint64_t{index} + 1; };
+void write_tetrahedra(TextOutput& out, const TetMesh& mesh, const SetParts& parts, const Numbering& numbers) {
+  const auto n = [&](std::uint32_t index) { return numbers.node(index); };
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
     const Tetrahedron& c = mesh.tetrahedra[t];
-    const std::uint64_t property = std::uint64_t{parts.part[t]} + 1;
-    write_integers(out, {t + 1, mesh.order() == 2 ? 118U : 111U, property, property, 7, mesh.order() == 2 ? 10U : 4U});
+    const std::uint64_t property = numbers.other(parts.part[t] + 1);
+    write_integers(out, {numbers.element(t), mesh.order() == 2 ? 118U : 111U, property, property, 7,
+                         mesh.order() == 2 ? 10U : 4U});
     if (mesh.order() == 1) {
       write_integers(out, {n(c[0]), n(c[1]), n(c[2]), n(c[3])});
       continue;
@@ -106,7 +107,7 @@ void write_tetrahedra(TextOutput& out, const TetMesh& mesh, const SetParts& part
 
 class Groups {
  public:
-  explicit Groups(TextOutput& out) : out_(out) {}
+  Groups(TextOutput& out, const Numbering& numbers) : out_(out), count_(numbers.other(0)) {}
 
   template <class Number>
   void write(const std::string& name, std::uint64_t entity, std::size_t members, const Number& number_of) {
@@ -123,20 +124,22 @@ class Groups {
 
  private:
   TextOutput& out_;
-  std::uint64_t count_ = 0;
+  std::uint64_t count_;
 };
 
-void write_node_groups(Groups& groups, std::span<const NamedSet> sets, std::span<const std::string> names) {
+void write_node_groups(Groups& groups, std::span<const NamedSet> sets, std::span<const std::string> names,
+                       const Numbering& numbers) {
   for (std::size_t s = 0; s < sets.size(); ++s)
     groups.write(names[s], node_entity, sets[s].members.size(),
-                 [&](std::size_t i) { return std::uint64_t{sets[s].members[i]} + 1; });
+                 [&](std::size_t i) { return numbers.node(sets[s].members[i]); });
 }
 
 }  // namespace
 
-Notes write_unv(const TetMesh& given, const std::filesystem::path& file, const FileOptions&) {
+Notes write_unv(const TetMesh& given, const std::filesystem::path& file, const FileOptions& options) {
   Notes notes;
-  const TetMesh mesh = with_whole_sets(given, notes);
+  const Numbering& numbers = options.numbers;
+  const TetMesh mesh = with_whole_sets(given, options.set_prefix, notes);
   // One list of names for all kinds, since groups of one name would be one group to many readers.
   std::vector<NamedSet> sets = mesh.element_sets;
   sets.insert(sets.end(), mesh.face_sets.begin(), mesh.face_sets.end());
@@ -153,37 +156,38 @@ Notes write_unv(const TetMesh& given, const std::filesystem::path& file, const F
   {
     TextOutput out(output.stream());
     write_units(out, mesh.unit);
-    write_nodes(out, mesh.nodes);
+    write_nodes(out, mesh.nodes, numbers);
     begin(out, "  2412");
     const SetParts bodies = set_parts(given.element_sets, mesh.tetrahedra.size());
     const SetParts faces = set_parts(given.face_sets, mesh.boundary.size());
-    write_tetrahedra(out, mesh, bodies);
-    std::uint64_t number = mesh.tetrahedra.size();
+    write_tetrahedra(out, mesh, bodies, numbers);
+    std::uint64_t number = numbers.element(mesh.tetrahedra.size());
     for (std::size_t f = 0; f < mesh.boundary.size(); ++f) {
       if (triangle_number[f] == 0) continue;
-      triangle_number[f] = ++number;
+      triangle_number[f] = number++;
       const Triangle mid_edges = mesh.order() == 2 ? boundary_mid_edge_nodes(mesh, mesh.boundary[f]) : Triangle{};
-      write_triangle(out, number, bodies.of.size() + faces.part[f] + 1, boundary_triangle(mesh, mesh.boundary[f]),
-                     mesh.order() == 2 ? &mid_edges : nullptr);
+      write_triangle(out, triangle_number[f], numbers.other(bodies.of.size() + faces.part[f] + 1),
+                     boundary_triangle(mesh, mesh.boundary[f]), mesh.order() == 2 ? &mid_edges : nullptr, numbers);
     }
     end(out);
     begin(out, "  2467");
-    Groups groups(out);
+    Groups groups(out, numbers);
     for (std::size_t s = 0; s < of_elements.size(); ++s)
       groups.write(of_elements[s], element_entity, mesh.element_sets[s].members.size(),
-                   [&](std::size_t i) { return std::uint64_t{mesh.element_sets[s].members[i]} + 1; });
+                   [&](std::size_t i) { return numbers.element(mesh.element_sets[s].members[i]); });
     for (std::size_t s = 0; s < of_faces.size(); ++s)
       groups.write(of_faces[s], element_entity, mesh.face_sets[s].members.size(),
                    [&](std::size_t i) { return triangle_number[mesh.face_sets[s].members[i]]; });
-    write_node_groups(groups, mesh.node_sets, of_nodes);
+    write_node_groups(groups, mesh.node_sets, of_nodes, numbers);
     end(out);
   }
   output.commit();
   return notes;
 }
 
-Notes write_unv(const NamedSurface& surface, const std::filesystem::path& file, const FileOptions&) {
+Notes write_unv(const NamedSurface& surface, const std::filesystem::path& file, const FileOptions& options) {
   Notes notes;
+  const Numbering& numbers = options.numbers;
   std::vector<NamedSet> sets = surface.face_sets;
   sets.insert(sets.end(), surface.node_sets.begin(), surface.node_sets.end());
   const std::vector<std::string> names = names_for(sets, surface_rules(), {}, notes);
@@ -191,17 +195,17 @@ Notes write_unv(const NamedSurface& surface, const std::filesystem::path& file, 
   {
     TextOutput out(output.stream());
     write_units(out, surface.unit);
-    write_nodes(out, surface.mesh.vertices);
+    write_nodes(out, surface.mesh.vertices, numbers);
     begin(out, "  2412");
     for (std::size_t t = 0; t < surface.mesh.triangles.size(); ++t)
-      write_triangle(out, t + 1, 1, surface.mesh.triangles[t], nullptr);
+      write_triangle(out, numbers.element(t), numbers.other(1), surface.mesh.triangles[t], nullptr, numbers);
     end(out);
     begin(out, "  2467");
-    Groups groups(out);
+    Groups groups(out, numbers);
     for (std::size_t s = 0; s < surface.face_sets.size(); ++s)
       groups.write(names[s], element_entity, surface.face_sets[s].members.size(),
-                   [&](std::size_t i) { return std::uint64_t{surface.face_sets[s].members[i]} + 1; });
-    write_node_groups(groups, surface.node_sets, std::span(names).subspan(surface.face_sets.size()));
+                   [&](std::size_t i) { return numbers.element(surface.face_sets[s].members[i]); });
+    write_node_groups(groups, surface.node_sets, std::span(names).subspan(surface.face_sets.size()), numbers);
     end(out);
   }
   output.commit();

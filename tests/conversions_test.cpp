@@ -14,9 +14,26 @@
 namespace scan2fea {
 namespace {
 
-// One set of faces overlaps the others; coordinates have digits to lose.
+constexpr const char* interface = "INTERFACE_BRACKET_PIN";
+
+// The faces of the first body at this x, between the bodies.
+void add_interface(double x, TetMesh& mesh) {
+  NamedSet& set = mesh.face_sets.emplace_back(NamedSet{interface, {}});
+  for (const std::uint32_t t : mesh.element_sets[0].members)
+    for (std::uint8_t k = 0; k < 4; ++k) {
+      const Triangle corners = boundary_triangle(mesh, {t, k});
+      if (!std::all_of(corners.begin(), corners.end(), [&](std::uint32_t n) { return mesh.nodes[n].x() == x; }))
+        continue;
+      set.members.push_back(static_cast<std::uint32_t>(mesh.boundary.size()));
+      mesh.boundary.push_back({t, k});
+      ++mesh.faces_between;
+    }
+}
+
+// One set of faces overlaps the others, one lies between the bodies; coordinates have digits to lose.
 TetMesh part(int order) {
   TetMesh mesh = analytic::part_with_sets(order);
+  add_interface(2, mesh);
   for (Vec3& p : mesh.nodes) p = p * 1.1 + Vec3(0.3, -7, 100);
   std::vector<std::uint32_t> ends = mesh.face_sets[0].members;
   ends.insert(ends.end(), mesh.face_sets[1].members.begin(), mesh.face_sets[1].members.end());
@@ -46,14 +63,19 @@ std::vector<std::pair<std::string, std::set<std::array<double, 3>>>> places(cons
   return result;
 }
 
-auto face_places(const TetMesh& mesh) {
+auto face_places(const TetMesh& mesh, const std::vector<NamedSet>& sets) {
   return places(
-      mesh.face_sets, [&](std::uint32_t f) { return boundary_triangle(mesh, mesh.boundary[f]); }, mesh.nodes);
+      sets, [&](std::uint32_t f) { return boundary_triangle(mesh, mesh.boundary[f]); }, mesh.nodes);
 }
 
 auto face_places(const NamedSurface& surface) {
   return places(
       surface.face_sets, [&](std::uint32_t f) { return surface.mesh.triangles[f]; }, surface.mesh.vertices);
+}
+
+std::vector<NamedSet> only(std::vector<NamedSet> sets, bool between) {
+  std::erase_if(sets, [&](const NamedSet& set) { return (set.name == interface) != between; });
+  return sets;
 }
 
 auto node_places(const std::vector<NamedSet>& sets, const std::vector<Vec3>& nodes) {
@@ -73,20 +95,26 @@ std::string kept(const TetMesh& truth, const MeshFile& read, const std::string& 
     EXPECT_NEAR(total_volume(*mesh), total_volume(truth), 1e-9 * total_volume(truth)) << what;
     add('n', !mesh->node_sets.empty(),
         node_places(mesh->node_sets, mesh->nodes) == node_places(truth.node_sets, truth.nodes), "sets of nodes");
-    add('f', !mesh->face_sets.empty(), face_places(*mesh) == face_places(truth), "sets of faces");
+    const auto same_faces = [&](bool between) {
+      return face_places(*mesh, only(mesh->face_sets, between)) == face_places(truth, only(truth.face_sets, between));
+    };
+    add('f', !only(mesh->face_sets, false).empty(), same_faces(false), "sets of faces");
     add('e', !mesh->element_sets.empty(), sorted(mesh->element_sets) == sorted(truth.element_sets), "sets of elements");
     add('u', !mesh->unit.empty(), mesh->unit == truth.unit, "unit");
     add('2', mesh->order() == 2, mesh->mid_edge_nodes == truth.mid_edge_nodes, "order");
+    add('i', mesh->faces_between > 0, same_faces(true) && mesh->faces_between == truth.faces_between, "interface");
+    EXPECT_EQ(mesh->outer_faces(), truth.outer_faces()) << what;
   } else {
     const auto& surface = std::get<NamedSurface>(read.mesh);
-    EXPECT_EQ(surface.mesh.triangles.size(), truth.boundary.size()) << what;
+    EXPECT_EQ(surface.mesh.triangles.size(), truth.outer_faces()) << what;
     add('n', !surface.node_sets.empty(),
         node_places(surface.node_sets, surface.mesh.vertices) == node_places(truth.node_sets, truth.nodes),
         "sets of nodes");
-    add('f', !surface.face_sets.empty(), face_places(surface) == face_places(truth), "sets of faces");
+    add('f', !surface.face_sets.empty(), face_places(surface) == face_places(truth, only(truth.face_sets, false)),
+        "sets of faces");
     letters += '-';
     add('u', !surface.unit.empty(), surface.unit == truth.unit, "unit");
-    letters += '-';
+    letters += "--";
   }
   return letters;
 }
@@ -99,6 +127,7 @@ std::string holdings(const FileFormat& format, bool as_volume) {
   letters += as_volume && holds.element_sets ? 'e' : '-';
   letters += holds.unit ? 'u' : '-';
   letters += as_volume && holds.second_order ? '2' : '-';
+  letters += as_volume && holds.faces_between ? 'i' : '-';
   return letters;
 }
 
@@ -123,6 +152,8 @@ const char* told(char letter) {
       return "BRACKET, PIN";
     case 'u':
       return "left out mm";
+    case 'i':
+      return interface;
     default:
       return "second order";
   }
@@ -144,7 +175,7 @@ TEST_P(Conversions, KeepWhatBothFormatsHoldAndTellTheRest) {
     write_volume(truth, start);
     const std::string first = kept(truth, read_mesh(start), std::string(from.extension));
     const std::string expected_first =
-        both(holdings(from, true), GetParam() == 2 ? std::string("nfeu2") : std::string("nfeu-"));
+        both(holdings(from, true), GetParam() == 2 ? std::string("nfeu2i") : std::string("nfeu-i"));
     EXPECT_EQ(first, expected_first) << from.extension;
     table += "| " + std::string(from.extension) + " |";
     for (const FileFormat& to : file_formats()) {
@@ -170,7 +201,8 @@ TEST_P(Conversions, KeepWhatBothFormatsHoldAndTellTheRest) {
     }
     table += "\n";
   }
-  std::printf("n: sets of nodes, f: of faces, e: of elements, u: unit, 2: second order\n%s", table.c_str());
+  std::printf("n: sets of nodes, f: of faces, e: of elements, u: unit, 2: second order, i: faces between bodies\n%s",
+              table.c_str());
 }
 
 }  // namespace

@@ -2,10 +2,14 @@
 
 #include "preproc/mesh/error.hpp"
 #include "tests/error_from.hpp"
+#include "tests/part_with_sets.hpp"
 #include "tests/structured_tets.hpp"
 #include "tests/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
+
+#include <fstream>
+#include <sstream>
 
 namespace scan2fea {
 namespace {
@@ -57,6 +61,84 @@ TEST(Formats, AFailureLeavesAnExistingFile) {
   for (const char* name : {"box.inp", "box.msh", "box.vtu"})
     EXPECT_THROW(write_volume(mesh, folder / "missing" / name), IoError) << name;
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+TEST(Formats, NumbersAndPrefixesAreReadBackAsTheSameMesh) {
+  const FileOptions options{.set_prefix = "PIN_", .numbers = {.first_node = 70001, .first_element = 80001}};
+  const TetMesh mesh = analytic::part_with_sets(2);
+  for (const FileFormat& format : file_formats()) {
+    if (format.write_volume == nullptr) continue;
+    const TemporaryFolder folder;
+    const auto file = folder / (format.extension == ".header" ? "mesh.header" : "part" + std::string(format.extension));
+    const Notes notes = write_volume(mesh, file, options);
+    const TetMesh read = read_volume(file);
+    EXPECT_EQ(read.tetrahedra, mesh.tetrahedra) << format.extension;
+    const auto has = [&](const std::vector<NamedSet>& sets, const char* name) {
+      const std::size_t s = find_set(sets, name);
+      return s < sets.size() ? sets[s].members : std::vector<std::uint32_t>{};
+    };
+    if (format.volume->element_sets) {
+      EXPECT_EQ(has(read.element_sets, "PIN_BRACKET"), mesh.element_sets[0].members) << format.extension;
+    }
+    if (format.volume->face_sets) {
+      EXPECT_EQ(has(read.face_sets, "PIN_FIXED").size(), mesh.face_sets[0].members.size()) << format.extension;
+    }
+    if (format.volume->node_sets) {
+      EXPECT_EQ(has(read.node_sets, "PIN_PINS"), mesh.node_sets[0].members) << format.extension;
+    }
+    const bool is_numbered = format.volume->largest_number > 0;
+    EXPECT_EQ(::testing::Value(notes, ::testing::Contains(::testing::HasSubstr("holds no numbers"))), !is_numbered)
+        << format.extension;
+    if (!is_numbered || format.extension == ".med") continue;
+    const std::string text = text_of(file);
+    EXPECT_NE(text.find("70001"), std::string::npos) << format.extension;
+    EXPECT_NE(text.find("80001"), std::string::npos) << format.extension;
+  }
+}
+
+TEST(Formats, NumbersThatDoNotFitAreWrongUsage) {
+  const TemporaryFolder folder;
+  const TetMesh mesh = analytic::tetrahedra_of_box({1, 1, 1}, {1, 1, 1}, 1);
+  EXPECT_THAT(error_from<WrongUsage>([&] {
+                write_volume(mesh, folder / "box.bdf", {.numbers = {.first_node = 99999999}});
+              }).what(),
+              ::testing::HasSubstr("limit: 99999999"));
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+// As *INCLUDE of both does it, and a bulk that holds both.
+TEST(Formats, TwoMeshesGoIntoOneDeck) {
+  const TemporaryFolder folder;
+  const TetMesh mesh = analytic::part_with_sets(1);
+  TetMesh other = mesh;
+  for (Vec3& p : other.nodes) p.x() += 10;
+  const FileOptions behind{.set_prefix = "B_", .numbers = {.first_node = mesh.nodes.size() + 1, .first_element = 1001}};
+  for (const char* extension : {".inp", ".bdf"}) {
+    const auto a = folder / (std::string("a") + extension), b = folder / (std::string("b") + extension);
+    write_volume(mesh, a);
+    write_volume(other, b, behind);
+    std::string first = text_of(a), second = text_of(b);
+    if (const std::size_t end = first.find("ENDDATA"); end != std::string::npos) first.resize(end);
+    if (const std::size_t begin = second.find("BEGIN BULK\n"); begin != std::string::npos) second.erase(begin, 11);
+    std::ofstream(folder / (std::string("both") + extension)) << first << second;
+    const TetMesh both = read_volume(folder / (std::string("both") + extension));
+    EXPECT_EQ(both.tetrahedra.size(), 2 * mesh.tetrahedra.size()) << extension;
+    EXPECT_NEAR(total_volume(both), 2 * total_volume(mesh), 1e-12) << extension;
+    for (const NamedSet& set : mesh.element_sets)
+      for (const char* prefix : {"", "B_"}) {
+        const std::size_t s = find_set(both.element_sets, prefix + set.name);
+        ASSERT_LT(s, both.element_sets.size()) << extension << prefix << set.name;
+        EXPECT_EQ(both.element_sets[s].members.size(), set.members.size()) << extension << prefix << set.name;
+      }
+    for (const char* name : {"FIXED", "B_FIXED"})
+      EXPECT_LT(find_set(both.face_sets, name), both.face_sets.size()) << extension << name;
+  }
 }
 
 TEST(Formats, WarnsOfElementsThatCalculixRefuses) {

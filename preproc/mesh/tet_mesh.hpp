@@ -35,8 +35,8 @@ struct TetMesh {
   std::vector<Vec3> nodes;
   std::vector<Tetrahedron> tetrahedra;
   std::vector<MidEdgeNodes> mid_edge_nodes;  // empty for first order, one per tetrahedron for second order
-  // In the order of the surface's triangles; the last `faces_between` of it are faces between two bodies, each once, as
-  // the face of one of them.
+  // In the order of the surface's triangles. The last `faces_between` of it lie within, between two elements, each once
+  // as the face of one of them: where two bodies meet. Each of these is in a set.
   std::vector<BoundaryFace> boundary;
   std::size_t faces_between = 0;
   std::vector<NamedSet> node_sets;
