@@ -36,6 +36,7 @@ constexpr Holdings all_to(std::uint64_t largest_number) {
           .largest_number = largest_number};
 }
 constexpr Holdings all = all_to(largest_int);
+constexpr Holdings of_exodus = all_to(0);
 constexpr Holdings of_nastran = all_to(99999999), of_ansys = all_to(999999999);  // eight digits, nine
 constexpr Holdings of_viewers{.node_sets = true,
                               .face_sets = true,
@@ -67,8 +68,8 @@ constexpr auto formats = std::to_array<FileFormat>({
     {".mail", "Code_Aster", all, {}, write_mail, nullptr, read_mail},
     {".cdb", "ANSYS", of_ansys, {}, write_cdb, nullptr, read_cdb},
     {".header", "Elmer", of_elmer, {}, write_elmer, nullptr, read_elmer},
-    {".exo", "Exodus II", all, sets_and_unit, write_exodus, write_exodus, read_exodus},
-    {".e", "Exodus II", all, sets_and_unit, write_exodus, write_exodus, read_exodus},
+    {".exo", "Exodus II", of_exodus, sets_and_unit, write_exodus, write_exodus, read_exodus},
+    {".e", "Exodus II", of_exodus, sets_and_unit, write_exodus, write_exodus, read_exodus},
     {".su2", "SU2", of_su2, {}, write_su2, nullptr, read_su2},
     {".vtp", "VTK", {}, sets_and_unit, nullptr, write_vtp, read_vtk_xml},
     {".vtk", "VTK, legacy", Holdings{.second_order = true}, Holdings{}, nullptr, nullptr, read_vtk_legacy},

@@ -36,6 +36,8 @@ class BodiesPipeline {
     log_.run("tetrahedralize", [&](StageRecord& record) { fill(record); });
     if (options_.order == 2) log_.run("second order", [&](StageRecord& record) { curve(record); });
     result_.repaired = std::move(repaired_);
+    result_.bodies = std::move(made_bodies_);
+    result_.contacts = std::move(contacts_);
     result_.stages = std::move(stages_);
     return std::move(result_);
   }
@@ -62,6 +64,8 @@ class BodiesPipeline {
   RepairResult repaired_;
   BodyComplex scan_;  // the bodies, joined
   BodyComplex made_;  // the same of what was made
+  std::vector<MadeBody> made_bodies_;
+  std::vector<MadeContact> contacts_;
   PipelineResult result_;
 };
 
@@ -91,6 +95,14 @@ void BodiesPipeline::join(StageRecord& record) {
   UnionFind joined(bodies_.size());
   for (const Contact& contact : scan_.contacts) {
     joined.unite(contact.first, contact.second);
+    contacts_.push_back({.first = bodies_[contact.first].name,
+                         .second = bodies_[contact.second].name,
+                         .set = interface_name({contact.first, contact.second}),
+                         .triangles_closed = contact.triangles,
+                         .largest_gap = contact.largest_gap,
+                         .largest_overlap = contact.largest_overlap,
+                         .tolerance = contact.tolerance,
+                         .at = contact.at});
     gap = std::max(gap, contact.largest_gap);
     overlap = std::max(overlap, contact.largest_overlap);
     area += contact.area;
@@ -140,6 +152,7 @@ void BodiesPipeline::make_interfaces(StageRecord& record) {
   for (std::uint32_t b = 0; b < bodies_.size(); ++b) {
     const double before = enclosed_volume({scan_.mesh.vertices, triangles_of_body(scan_, b)});
     const double after = enclosed_volume({made_.mesh.vertices, triangles_of_body(made_, b)});
+    made_bodies_.push_back({.name = bodies_[b].name, .volume_of_scan = before, .volume = after, .tetrahedra = 0});
     record.remarks.push_back(bodies_[b].name + ": volume " + error_text(after) + ", " +
                              error_text(100 * (after / before - 1), 3) + " % from its scan's");
   }
@@ -154,7 +167,8 @@ void BodiesPipeline::fill(StageRecord& record) {
   for (std::uint32_t b = 0; b < bodies_.size(); ++b) {
     const TetrahedralizeResult filled = fill_body(made_, b, options, progress_.until(progress_.end()), mesh);
     least_bound = std::min(least_bound, filled.bound.min_dihedral_deg);
-    record.changes.emplace_back("tetrahedra_of_" + bodies_[b].name, static_cast<double>(filled.mesh.tetrahedra.size()));
+    made_bodies_[b].tetrahedra = filled.mesh.tetrahedra.size();
+    record.remarks.push_back(bodies_[b].name + ": " + std::to_string(made_bodies_[b].tetrahedra) + " tetrahedra");
   }
   for (std::uint32_t b = 0; b < bodies_.size(); ++b) mesh.element_sets[b].name = bodies_[b].name;
   mesh.faces_between = static_cast<std::size_t>(

@@ -50,6 +50,22 @@ struct MadeSet {
   std::size_t triangles = 0;
 };
 
+// What became of one of several bodies that were given.
+struct MadeBody {
+  std::string name;
+  double volume_of_scan = 0;  // after it was repaired and joined with others
+  double volume = 0;          // of what was made, with straight edges
+  std::size_t tetrahedra = 0;
+};
+
+// Where two of them touch.
+struct MadeContact {
+  std::string first, second, set;    // bodies, and the set of the faces between them
+  std::size_t triangles_closed = 0;  // of the second one's scan, which gave way to the first one's
+  double largest_gap = 0, largest_overlap = 0, tolerance = 0;
+  Vec3 at = Vec3::Zero();  // of the larger of both
+};
+
 // What one stage cost and did.
 struct StageRecord {
   std::string name;
@@ -77,7 +93,9 @@ struct PipelineResult {
   std::optional<TetMesh> volume_mesh;  // with the sets
   std::vector<NamedSet> face_sets;     // of `surface`; after those asked for, what was made up (made_up.hpp)
   std::vector<MadeSet> sets;           // the same in figures
-  SurfaceFaces faces;                  // of the scan as it came to simplification; none where nothing asked for them
+  std::vector<MadeBody> bodies;        // where several were given (bodies_pipeline.hpp), and where these touch
+  std::vector<MadeContact> contacts;
+  SurfaceFaces faces;  // of the scan as it came to simplification; none where nothing asked for them
   std::vector<StageRecord> stages;
   std::vector<WeakPlace> weak_places;  // of what was made; none of them is unusable
   std::vector<std::string> left_out;   // for want of time, improvements: "better tetrahedra"

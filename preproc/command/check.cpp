@@ -106,7 +106,9 @@ int check(CheckFlags flags) {
                         .outliers = nullptr,
                         .primitives = nullptr,
                         .sets = nullptr,
-                        .faces = nullptr};
+                        .faces = nullptr,
+                        .bodies = nullptr,
+                        .contacts = nullptr};
   StagedOutputs outputs;
   if (flags.leaks) {
     const std::vector<Opening> openings = find_openings(mesh.surface);

@@ -24,6 +24,7 @@ struct ConvertFlags {
   std::vector<std::string> sets;  // NEW=OLD
   MshVersion msh_version = MshVersion::v4_1;
   bool ascii = false;
+  NumberFlags numbering;
   bool quiet = false;
 };
 
@@ -85,7 +86,9 @@ int convert(const ConvertFlags& flags) {
   FileOptions options{.provenance = flags.input.filename().string(),
                       .msh_version = flags.msh_version,
                       .fields = {},
-                      .ascii = flags.ascii};
+                      .ascii = flags.ascii,
+                      .set_prefix = flags.numbering.set_prefix,
+                      .numbers = flags.numbering.numbers};
   if (const auto* surface = std::get_if<NamedSurface>(&read.mesh)) {
     if (!writes_surface(flags.output))
       throw WrongUsage({.what = "a surface holds no tetrahedra to write",
@@ -131,6 +134,7 @@ SubCommand add_convert(CLI::App& root) {
       ->allow_extra_args(false);
   add_deck_flag(*app, flags->deck);
   add_msh_version_flag(*app, flags->msh_version);
+  add_number_flags(*app, flags->numbering);
   app->add_flag("--quiet", flags->quiet, "No messages but errors");
   return {app, [flags] { return convert(*flags); }};
 }

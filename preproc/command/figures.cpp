@@ -75,6 +75,30 @@ Json to_json(const std::vector<MadeSet>& sets) {
   return list;
 }
 
+Json to_json(const std::vector<MadeBody>& bodies) {
+  Json list = Json::array();
+  for (const MadeBody& body : bodies)
+    list.push_back({{"name", body.name},
+                    {"volume", body.volume},
+                    {"volume_of_scan", body.volume_of_scan},
+                    {"volume_difference_pct", 100 * (body.volume / body.volume_of_scan - 1)},
+                    {"tetrahedra", body.tetrahedra}});
+  return list;
+}
+
+Json to_json(const std::vector<MadeContact>& contacts) {
+  Json list = Json::array();
+  for (const MadeContact& contact : contacts)
+    list.push_back({{"bodies", {contact.first, contact.second}},
+                    {"set", contact.set},
+                    {"triangles_closed", contact.triangles_closed},
+                    {"largest_gap", contact.largest_gap},
+                    {"largest_overlap", contact.largest_overlap},
+                    {"tolerance", contact.tolerance},
+                    {"place", {contact.at.x(), contact.at.y(), contact.at.z()}}});
+  return list;
+}
+
 Json measure(const Subject& subject, const CommonFlags& flags) {
   Report report;
   report.input = flags.input.string();
@@ -109,6 +133,10 @@ Json measure(const Subject& subject, const CommonFlags& flags) {
   if (subject.primitives != nullptr && !subject.primitives->empty()) json["primitives"] = to_json(*subject.primitives);
   if (subject.faces != nullptr && !subject.faces->list.empty()) json["faces"] = face_list(*subject.faces);
   if (subject.sets != nullptr && !subject.sets->empty()) json["sets"] = to_json(*subject.sets);
+  if (subject.bodies != nullptr && !subject.bodies->empty()) {
+    json["bodies"] = to_json(*subject.bodies);
+    json["contacts"] = to_json(*subject.contacts);
+  }
   if (subject.stages != nullptr) json["stages"] = to_json(*subject.stages);
   return json;
 }

@@ -26,6 +26,8 @@ struct Subject {
   const std::vector<Primitive>* primitives = nullptr;
   const std::vector<MadeSet>* sets = nullptr;
   const SurfaceFaces* faces = nullptr;  // of the scan
+  const std::vector<MadeBody>* bodies = nullptr;
+  const std::vector<MadeContact>* contacts = nullptr;
 };
 
 // Returns whether all gates pass. Stages --json and --report; says which gates failed.

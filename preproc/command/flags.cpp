@@ -5,6 +5,7 @@
 #include <CLI/Validators.hpp>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <utility>
 
@@ -423,6 +424,41 @@ void add_deck_flag(CLI::App& command, std::optional<DeckKind>& deck) {
       command, "--deck", deck, {{"static", DeckKind::static_analysis}, {"modal", DeckKind::modal}},
       "Also write a deck that runs, beside an .inp for CalculiX, beside a .med or .mail for Code_Aster; "
       "for sets named fixed and loaded");
+}
+
+void add_number_flags(CLI::App& command, NumberFlags& flags) {
+  const auto is_start_of_name = [](const std::string& text) {
+    const bool fits = !text.empty() && text.size() <= 20 && std::isalpha(static_cast<unsigned char>(text.front())) &&
+                      std::ranges::all_of(text, [](unsigned char c) { return std::isalnum(c) || c == '_'; });
+    return fits ? std::string()
+                : "'" + text + "' is no start of a name: a letter, then letters, digits and _, up to 20";
+  };
+  command.add_option("--set-prefix", flags.set_prefix, "Put before the names of all sets, as PIN_")
+      ->check(CLI::Validator(is_start_of_name, ""))
+      ->type_name("NAME");
+  const CLI::Range numbers(std::uint64_t{1}, std::uint64_t{1} << 40);
+  command
+      .add_option("--first-node", flags.numbers.first_node, "Number of the first node, where the format has numbers")
+      ->check(numbers)
+      ->type_name("N");
+  command
+      .add_option("--first-element", flags.numbers.first_element, "The same of elements; properties and sets follow")
+      ->check(numbers)
+      ->type_name("N");
+  // A deck is of one mesh.
+  if (command.get_option_no_throw("--deck") != nullptr)
+    for (const char* flag : {"--set-prefix", "--first-node", "--first-element"})
+      command.get_option(flag)->excludes("--deck");
+}
+
+void add_contact_flag(CLI::App& command, std::optional<double>& tolerance) {
+  command
+      .add_option(
+          "--contact", tolerance,
+          "Gaps and overlaps of bodies up to this are closed, model units; by default what two tessellations of "
+          "one surface may be apart")
+      ->check(positive)
+      ->type_name("TOL");
 }
 
 void add_msh_version_flag(CLI::App& command, MshVersion& version) {

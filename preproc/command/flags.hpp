@@ -36,6 +36,12 @@ struct RelativeLength {
   bool relative = false;
 };
 
+// What lets several meshes go into one deck.
+struct NumberFlags {
+  std::string set_prefix;
+  Numbering numbers;
+};
+
 // "0.5" or, with the suffix, "0.1%" (returned as 0.001) or "1.6x". Throws CLI::ValidationError.
 inline constexpr char no_suffix = 0;
 RelativeLength parse_length(const std::string& flag, const std::string& text, char suffix);
@@ -74,6 +80,8 @@ void add_feature_file_flags(CLI::App& command, FeatureFileFlags& flags);  // aft
 void add_effort_flag(CLI::App& command, PipelineOptions& options);
 void add_tetrahedralize_flags(CLI::App& command, TetrahedralizeOptions& options, int& order);
 void add_deck_flag(CLI::App& command, std::optional<DeckKind>& deck);
+void add_number_flags(CLI::App& command, NumberFlags& flags);
+void add_contact_flag(CLI::App& command, std::optional<double>& tolerance);
 void add_msh_version_flag(CLI::App& command, MshVersion& version);
 
 }  // namespace scan2fea::command

@@ -3,6 +3,8 @@
 #include "export/formats.hpp"
 #include "export/surface_files.hpp"
 #include "export/units.hpp"
+#include "preproc/bodies_pipeline.hpp"
+#include "preproc/command/body_inputs.hpp"
 #include "preproc/command/deck_needs.hpp"
 #include "preproc/command/early_end.hpp"
 #include "preproc/command/element_fields.hpp"
@@ -22,10 +24,11 @@ namespace scan2fea::command {
 namespace {
 
 // The stages know meshes and no files; a person wants to be told which of many files failed.
-PipelineResult run_naming_input(Scan& scan, const MakeMeshJob& job, const Progress& progress,
+PipelineResult run_naming_input(Scan& scan, std::vector<Body> bodies, const MakeMeshJob& job, const Progress& progress,
                                 ProgressDisplay& display) {
   const std::string input = job.common.input.string();
   const auto tell = [&](const StageRecord& stage) { display.line(describe_stage(stage)); };
+  if (!bodies.empty()) return run_pipeline_of_bodies(std::move(bodies), job.joining, job.pipeline, progress, tell);
   try {
     if (const auto* cloud = std::get_if<PointCloud>(&scan)) return run_pipeline(*cloud, job.pipeline, progress, tell);
     return run_pipeline(std::move(std::get<SurfaceMesh>(scan)), job.pipeline, progress, tell);
@@ -79,8 +82,7 @@ void tell_what_was_left_out(const PipelineResult& result, const MakeMeshJob& job
 
 // In the formats of meshes, too, with the names that come with a surface. The unit is what the file says or the user,
 // who must not contradict one another.
-Scan read_input(MakeMeshJob& job) {
-  const std::filesystem::path& input = job.common.input;
+NamedScan read_file(const std::filesystem::path& input, MakeMeshJob& job) {
   if (job.takes_clouds == TakesClouds::only) return read_cloud(input);
   const FileFormat* format = find_format(input);
   MeshFile read;
@@ -99,8 +101,38 @@ Scan read_input(MakeMeshJob& job) {
   auto& surface = std::get<NamedSurface>(read.mesh);
   const std::string unit = settled_unit(surface.unit, job.common.unit, input.string());
   if (!unit.empty()) job.common.unit = unit;
+  return std::move(surface);
+}
+
+Scan read_input(MakeMeshJob& job) {
+  NamedScan read = read_file(job.common.input, job);
+  if (auto* cloud = std::get_if<PointCloud>(&read)) return std::move(*cloud);
+  auto& surface = std::get<NamedSurface>(read);
   job.pipeline.given_sets = std::move(surface.face_sets);
   return std::move(surface.mesh);
+}
+
+// Of the files, where there are several, or else of the groups of the only one; none where that is one body.
+std::vector<Body> read_bodies(MakeMeshJob& job, const Scan& first) {
+  const auto* mesh = std::get_if<SurfaceMesh>(&first);
+  if (job.more_bodies.empty())
+    return mesh == nullptr || job.one_body ? std::vector<Body>() : bodies_of_groups(*mesh, job.pipeline.given_sets);
+  std::vector<std::filesystem::path> files{job.common.input};
+  files.insert(files.end(), job.more_bodies.begin(), job.more_bodies.end());
+  const std::vector<std::string> names = body_names(files);
+  std::vector<Body> bodies;
+  for (std::size_t b = 0; b < files.size(); ++b) {
+    const NamedScan read = b == 0 ? NamedScan() : read_file(files[b], job);
+    const auto* surface = std::get_if<NamedSurface>(&read);
+    if (b == 0 ? mesh == nullptr : surface == nullptr)
+      throw WrongUsage({.what = "a point cloud among several bodies",
+                        .where = files[b].string(),
+                        .value = {},
+                        .limit = {},
+                        .advice = "scan2fea reconstruct, first"});
+    bodies.push_back({names[b], b == 0 ? *mesh : surface->mesh});
+  }
+  return bodies;
 }
 
 // A cloud is thinned to what the triangles need that are asked for: two points a triangle.
@@ -116,6 +148,18 @@ std::string describe(const Scan& scan, const CommonFlags& flags) {
 
 std::vector<std::string> warnings_of(const Scan& scan, const CommonFlags& flags) {
   return std::visit([&](const auto& input) { return input_warnings(input, flags.unit); }, scan);
+}
+
+void describe_inputs(const Scan& scan, const std::vector<Body>& bodies, const MakeMeshJob& job,
+                     ProgressDisplay& display) {
+  if (bodies.empty()) display.line(describe(scan, job.common));
+  for (const Body& body : bodies) {
+    CommonFlags named = job.common;
+    named.input = body.name;
+    display.line(describe_input(body.surface, named));
+  }
+  for (const std::string& warning : warnings_of(scan, job.common))
+    std::fprintf(stderr, "scan2fea: warning: %s: %s\n", job.common.input.c_str(), warning.c_str());
 }
 
 void parse_sets(MakeMeshJob& job) {
@@ -158,6 +202,7 @@ void require_writable_outputs(const MakeMeshJob& job) {
   if (job.features.write) outputs.push_back({*job.features.write});
   std::vector<std::filesystem::path> inputs = inputs_of(job.common);
   if (job.features.read) inputs.push_back(*job.features.read);
+  inputs.insert(inputs.end(), job.more_bodies.begin(), job.more_bodies.end());
   require_writable(outputs, inputs, job.common.force);
 }
 
@@ -165,7 +210,10 @@ Notes write_result(PipelineResult& result, const MakeMeshJob& job) {
   const std::string unit = job.common.unit.value_or("");
   FileOptions options;
   options.provenance = job.common.input.filename().string();
+  for (const std::filesystem::path& body : job.more_bodies) options.provenance += ", " + body.filename().string();
   options.msh_version = job.msh_version;
+  options.set_prefix = job.numbering.set_prefix;
+  options.numbers = job.numbering.numbers;
   if (result.volume_mesh) {
     if (find_format(job.output)->volume->element_fields) options.fields = element_fields(*result.volume_mesh);
     return write_volume(*result.volume_mesh, job.output, options);
@@ -206,18 +254,17 @@ int make_mesh(MakeMeshJob job) {
   const std::vector<Gate> gates = parse_gates(job.common);
 
   Scan scan = read_input(job);
+  std::vector<Body> bodies = read_bodies(job, scan);
   parse_sets(job);
   if (!job.enrich_domain.empty())
     job.pipeline.enrich_domain = parse_selection("domain=" + job.enrich_domain, job.common.unit.value_or(""));
   require_deck(job, scan);
-  display.line(describe(scan, job.common));
-  for (const std::string& warning : warnings_of(scan, job.common))
-    std::fprintf(stderr, "scan2fea: warning: %s: %s\n", job.common.input.c_str(), warning.c_str());
+  describe_inputs(scan, bodies, job, display);
   if (job.features.read) job.pipeline.simplify->given_features = read_feature_lines(*job.features.read);
   if (job.pipeline.simplify) job.pipeline.simplify->size = job.size.target();
   adapt_reconstruction(job);
   if (job.enrich) job.pipeline.enrich = job.enrich_options;
-  PipelineResult result = run_naming_input(scan, job, progress, display);
+  PipelineResult result = run_naming_input(scan, std::move(bodies), job, progress, display);
 
   tell_what_was_left_out(result, job);
   for (const WeakPlace& place : result.weak_places)
@@ -239,7 +286,9 @@ int make_mesh(MakeMeshJob job) {
                           .outliers = &result.outliers,
                           .primitives = &result.primitives,
                           .sets = &result.sets,
-                          .faces = &result.faces};
+                          .faces = &result.faces,
+                          .bodies = &result.bodies,
+                          .contacts = &result.contacts};
     if (!report_figures(subject, job.common, gates, display, outputs)) {
       outputs.commit();
       return 1;

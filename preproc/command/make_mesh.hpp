@@ -2,6 +2,7 @@
 // gate, write.
 #pragma once
 
+#include "preproc/bodies/body_complex.hpp"
 #include "preproc/command/flags.hpp"
 
 namespace scan2fea::command {
@@ -20,9 +21,13 @@ struct MakeMeshJob {
   TakesClouds takes_clouds = TakesClouds::no;
   bool enrich = false;  // --enrich of the commands in which that stage is a choice
   EnrichOptions enrich_options;
-  std::string enrich_domain;  // an expression; empty: everywhere
+  std::string enrich_domain;                       // an expression; empty: everywhere
+  std::vector<std::filesystem::path> more_bodies;  // besides the input, which then is one, too
+  JoinOptions joining;                             // of several bodies
+  bool one_body = false;                           // whatever groups the input has
   std::optional<DeckKind> deck;
   MshVersion msh_version = MshVersion::v4_1;
+  NumberFlags numbering;
 };
 
 // Input, output, reports, and all flags of the surface stages, for the commands that run them one after the other.

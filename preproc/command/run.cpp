@@ -9,11 +9,17 @@ SubCommand add_run(CLI::App& root) {
   job->takes_clouds = TakesClouds::too;
   CLI::App* app = root.add_subcommand("run", "The whole chain: a scan or a point cloud in, a mesh for a solver out");
   add_surface_flags(*app, *job);
+  app->get_option("input")->description("What to read");
+  app->add_option("more", job->more_bodies, "More bodies, each a file: they share nodes where they touch")
+      ->type_name("FILE");
+  add_contact_flag(*app, job->joining.tolerance);
+  app->add_flag("--one-body", job->one_body, "One body, also where each group of the file is a closed one");
   app->get_option("--holes")->description(
       "What becomes of holes: close; with keep no volume fits in (scan2fea surface)");
   add_tetrahedralize_flags(*app, *job->pipeline.tetrahedralize, job->pipeline.order);
   add_deck_flag(*app, job->deck);
   add_msh_version_flag(*app, job->msh_version);
+  add_number_flags(*app, job->numbering);
   return {app, [job] {
             if (job->pipeline.repair->holes == Holes::keep)
               throw WrongUsage({.what = "a volume needs a closed surface",
