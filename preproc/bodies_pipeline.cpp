@@ -85,6 +85,7 @@ void BodiesPipeline::repair_all(StageRecord& record) {
     }
   }
   describe(repaired_, record);
+  std::erase_if(record.changes, [](const auto& change) { return change.first == "bodies"; });  // told by the contact
 }
 
 void BodiesPipeline::join(StageRecord& record) {

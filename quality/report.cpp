@@ -162,6 +162,14 @@ std::string gate_row(const Json& gate) {
                                                              text(gate["limit"], "%.6g"));
 }
 
+std::string set_text(const Json& set) {
+  if (set.contains("nodes")) return text(set["nodes"]) + " nodes";
+  if (set.contains("tetrahedra")) return text(set["tetrahedra"]) + " tetrahedra, volume " + text(set["volume"], "%.9g");
+  std::string line = text(set["triangles"]) + " triangles, area " + text(set["area"], "%.6g");
+  if (set.contains("area_of_scan")) line += ", of the scan " + text(set["area_of_scan"], "%.6g");
+  return line;
+}
+
 }  // namespace
 
 SurfaceFigures measure_surface(const SurfaceMesh& mesh) {
@@ -197,9 +205,13 @@ std::string to_table(const Json& report) {
   if (report.contains("volume_mesh")) table += volume_mesh_table(report["volume_mesh"]);
   if (report.contains("sets")) table += "sets\n";
   if (report.contains("sets"))
-    for (const Json& set : report["sets"])
-      table += row(text(set["name"]), text(set["triangles"]) + " triangles, area " + text(set["area"], "%.6g") +
-                                          ", of the scan " + text(set["area_of_scan"], "%.6g"));
+    for (const Json& set : report["sets"]) table += row(text(set["name"]), set_text(set));
+  if (report.contains("bodies")) table += "bodies\n";
+  if (report.contains("bodies"))
+    for (const Json& body : report["bodies"])
+      table +=
+          row(text(body["name"]), text(body["tetrahedra"]) + " tetrahedra, volume " + text(body["volume"], "%.9g") +
+                                      ", " + text(body["volume_difference_pct"], "%.4f") + " % from the scan's");
   if (!report["regions"].empty()) table += "regions\n";
   for (const Json& region : report["regions"])
     table += row(text(region["name"]), text(region["faces"]) + " faces, area " + text(region["area"], "%.9g"));

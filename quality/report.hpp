@@ -11,7 +11,10 @@
 //   volume_mesh {nodes, tetrahedra, order, min_dihedral_deg, max_dihedral_deg, scaled_jacobian {min, mean}, edge_ratio,
 //                radius_edge_ratio, volume, inverted},
 //   faces [{name, kind, area, triangles, place, what its kind has}],
-//   sets [{name, kind, area, area_of_scan, area_difference_pct, triangles}],
+//   sets [{name, kind, area, area_of_scan, area_difference_pct, triangles; of a file's elements volume, tetrahedra, of
+//          nodes nodes}],
+//   bodies [{name, volume, volume_of_scan, volume_difference_pct, tetrahedra}],
+//   contacts [{bodies, set, triangles_closed, largest_gap, largest_overlap, tolerance, place}],
 //   regions [{name, area, faces}], gates [{name, operator, value, limit, pass}]
 // Of a volume mesh of second order, volumes, areas, deviation, points and volume_mesh are those of the curved elements
 // (see TetShape); what is said of triangles, edge ratios and angles, is of their corners.

@@ -99,6 +99,24 @@ Json to_json(const std::vector<MadeContact>& contacts) {
   return list;
 }
 
+// Of a file.
+Json sets_of(const TetMesh& mesh) {
+  Json list = Json::array();
+  for (const NamedSet& set : mesh.element_sets) {
+    double volume = 0;
+    for (const std::uint32_t t : set.members) volume += volume_of(mesh, t);
+    list.push_back({{"name", set.name}, {"kind", "elements"}, {"volume", volume}, {"tetrahedra", set.members.size()}});
+  }
+  for (const NamedSet& set : mesh.face_sets) {
+    double area = 0;
+    for (const std::uint32_t f : set.members) area += face_area(mesh, mesh.boundary[f]);
+    list.push_back({{"name", set.name}, {"kind", "faces"}, {"area", area}, {"triangles", set.members.size()}});
+  }
+  for (const NamedSet& set : mesh.node_sets)
+    list.push_back({{"name", set.name}, {"kind", "nodes"}, {"nodes", set.members.size()}});
+  return list;
+}
+
 Json measure(const Subject& subject, const CommonFlags& flags) {
   Report report;
   report.input = flags.input.string();
@@ -133,6 +151,8 @@ Json measure(const Subject& subject, const CommonFlags& flags) {
   if (subject.primitives != nullptr && !subject.primitives->empty()) json["primitives"] = to_json(*subject.primitives);
   if (subject.faces != nullptr && !subject.faces->list.empty()) json["faces"] = face_list(*subject.faces);
   if (subject.sets != nullptr && !subject.sets->empty()) json["sets"] = to_json(*subject.sets);
+  if (subject.sets == nullptr && subject.volume_mesh != nullptr) json["sets"] = sets_of(*subject.volume_mesh);
+  if (json.contains("sets") && json["sets"].empty()) json.erase("sets");
   if (subject.bodies != nullptr && !subject.bodies->empty()) {
     json["bodies"] = to_json(*subject.bodies);
     json["contacts"] = to_json(*subject.contacts);

@@ -92,6 +92,9 @@ std::array<Vec3, 3> derivatives_at(const CurvedTetrahedron& nodes, const std::ar
 
 // Exact; negative where it is inside out.
 double volume_of(const CurvedTetrahedron& nodes);
+inline double volume_of(const TetMesh& mesh, std::size_t tetrahedron) {
+  return volume_of(curved_tetrahedron(mesh, tetrahedron));
+}
 
 // Sum over the elements as they are: of second order curved.
 double total_volume(const TetMesh& mesh);
