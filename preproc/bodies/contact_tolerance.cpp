@@ -15,8 +15,9 @@ constexpr double rounding = 1e-5;  // of the larger diagonal
 // A strip of width w that turns by an angle a to the next is w / 2 tan(a / 4) off its arc; a regular triangle of that
 // height, whose corners lie on a ball, eight thirds of it.
 constexpr double of_triangles = 8.0 / 3 / 2;
-// Of the sagittas of all triangles: a few spikes of a scan are no tolerance.
-constexpr double quantile = 0.95;
+// The largest sagitta is the tolerance, but no more than so many times what nearly all triangles have: a few spikes of a
+// scan are none.
+constexpr double quantile = 0.95, most_over_quantile = 4;
 
 class Sagittas {
  public:
@@ -44,7 +45,7 @@ class Sagittas {
   std::vector<Triangle> neighbours_;
 };
 
-double usual_sagitta(const SurfaceMesh& mesh, std::vector<std::uint32_t> triangles) {
+double largest_sagitta(const SurfaceMesh& mesh, std::vector<std::uint32_t> triangles) {
   std::sort(triangles.begin(), triangles.end());
   triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
   if (triangles.empty()) return 0;
@@ -53,7 +54,7 @@ double usual_sagitta(const SurfaceMesh& mesh, std::vector<std::uint32_t> triangl
   for (const std::uint32_t f : triangles) all.push_back(sagittas.of(f));
   const auto at = static_cast<std::ptrdiff_t>(quantile * static_cast<double>(all.size() - 1));
   std::nth_element(all.begin(), all.begin() + at, all.end());
-  return all[static_cast<std::size_t>(at)];
+  return std::min(*std::max_element(all.begin(), all.end()), most_over_quantile * all[static_cast<std::size_t>(at)]);
 }
 
 }  // namespace
@@ -76,7 +77,7 @@ double contact_tolerance(const SurfaceMesh& first, std::span<const std::uint32_t
       near_second.push_back(f);
       near_first.push_back(foot->triangle);
     }
-  return std::min(reach, usual_sagitta(first, near_first) + usual_sagitta(second, near_second)) + fuzz;
+  return std::min(reach, largest_sagitta(first, near_first) + largest_sagitta(second, near_second)) + fuzz;
 }
 
 }  // namespace scan2fea

@@ -180,6 +180,7 @@ class Join {
         ++contacts[complex_.sides[foot->triangle].behind].triangles;
     }
     for (auto& [other, contact] : contacts) {
+      if (contact.triangles == 0) continue;  // a corner that touches
       contact.first = other;
       contact.tolerance = tolerance_;
       complex_.contacts.push_back(contact);
