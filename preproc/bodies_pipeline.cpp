@@ -150,6 +150,7 @@ void BodiesPipeline::make_interfaces(StageRecord& record) {
                     {"faces_before", static_cast<double>(made.faces_before)},
                     {"faces_after", static_cast<double>(made.faces_after)},
                     {"largest_volume_shift", made.largest_volume_shift}};
+  if (made.largest_deviation > 0) record.changes.emplace_back("largest_deviation", made.largest_deviation);
   for (std::uint32_t b = 0; b < bodies_.size(); ++b) {
     const double before = enclosed_volume({scan_.mesh.vertices, triangles_of_body(scan_, b)});
     const double after = enclosed_volume({made_.mesh.vertices, triangles_of_body(made_, b)});

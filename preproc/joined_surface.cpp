@@ -7,6 +7,7 @@
 #include "preproc/surface/fit/preserve_volume.hpp"
 #include "preproc/surface/kernel/cut_surface.hpp"
 #include "preproc/surface/simplification/simplify_sheet.hpp"
+#include "quality/deviation_bound.hpp"
 #include "quality/self_intersections.hpp"
 
 #include <algorithm>
@@ -23,6 +24,11 @@ constexpr auto no_index = std::numeric_limits<std::uint32_t>::max();
 constexpr char mark = '\x01';
 // Of the diagonal, as in interface_sheets.cpp; and how far chords may be from lines within.
 constexpr double rounding = 1e-6, line_tolerance = 1e-4;
+// Sheets with edges shorter by this that are tried where one is farther from the scan than asked.
+constexpr int more_trials = 4;
+constexpr double shortening = 0.7;
+// Over a deviation that is only aimed at: nearer is not worth twice the triangles.
+constexpr double near_enough = 1.5;
 // Of a body's volume: less is the rounding of coordinates.
 constexpr double exact_volume = 1e-9;
 
@@ -125,7 +131,7 @@ class Interfaces {
     for (const auto& [a, b] : boundary_edges(of_scan.mesh))
       border += (of_scan.mesh.vertices[a] - of_scan.mesh.vertices[b]).norm();
     const double spacing = border / static_cast<double>(std::max<std::size_t>(1, vertex_at.size()));
-    const SimplifiedSheet made = simplify_sheet(of_scan.mesh, held, std::max(spacing, mean_edge_), options_, progress);
+    const SimplifiedSheet made = within_deviation(of_scan.mesh, held, std::max(spacing, mean_edge_), progress);
     std::vector<std::uint32_t> number;
     for (std::size_t v = 0; v < made.mesh.vertices.size(); ++v) {
       const Vec3& p = made.mesh.vertices[v];
@@ -139,6 +145,51 @@ class Interfaces {
     ++result_.sheets;
     result_.faces_before += sheet.triangles.size();
     result_.faces_after += made.mesh.triangles.size();
+  }
+
+  // The first sheet that is near enough, or the nearest.
+  SimplifiedSheet within_deviation(const SurfaceMesh& sheet, const std::vector<bool>& held, double edge_length,
+                                   const Progress& progress) {
+    SimplifyOptions options = options_;
+    SimplifiedSheet best;
+    try {
+      best = simplify_sheet(sheet, held, edge_length, options, progress);
+    } catch (const NotMeshable&) {
+      // A crease of the piece may end where the outside has no vertex.
+      options.features.angle_deg.reset();
+      best = simplify_sheet(sheet, held, edge_length, options, progress);
+    }
+    auto* asked = std::get_if<LargestDeviation>(&options.size);
+    if (asked == nullptr) return best;
+    const DeviationReference reference(sheet);
+    const double wanted = asked->distance;
+    const auto deviation = [&](const SimplifiedSheet& made) {
+      return bound_deviation(made.mesh, reference, {.limit = wanted}).upper();
+    };
+    double nearest = deviation(best);
+    const double enough = asked->required ? wanted : near_enough * wanted;
+    for (int trial = 0; trial < more_trials && nearest > enough && progress.may_improve(); ++trial) {
+      edge_length *= shortening;
+      asked->distance *= shortening * shortening;  // which edges go with the root of
+      try {
+        SimplifiedSheet made = simplify_sheet(sheet, held, edge_length, options, progress);
+        if (const double next = deviation(made); next < nearest) {
+          nearest = next;
+          best = std::move(made);
+        }
+      } catch (const NotMeshable&) {
+        break;
+      }
+    }
+    if (nearest > wanted && asked->required)
+      throw NotMeshable({.what = "the deviation was not reached between two bodies",
+                         .where = {},
+                         .value = std::to_string(nearest / wanted) + " times as far",
+                         .limit = {},
+                         .advice = "a larger --deviation, or --faces",
+                         .at = sheet.vertices.front()});
+    result_.largest_deviation = std::max(result_.largest_deviation, nearest);
+    return best;
   }
 
   std::uint32_t add_vertex(const Vec3& p, bool is_held) {

@@ -24,11 +24,13 @@ BodyComplex outside_as_made(const Outside& outside, PipelineResult& result);
 struct InterfaceResult {
   std::size_t sheets = 0, faces_before = 0, faces_after = 0;
   double largest_volume_shift = 0;  // of a vertex, model units
+  double largest_deviation = 0;     // before it, an upper bound; only where the size is a deviation
 };
 
 // Adds the pieces between bodies to `made`, which has the outside, and restores the volume of each body as far as its
-// free vertices can. `line_edges`: of the outside, which stay. Options as of simplify_sheet. Throws NotMeshable where
-// no valid pieces come out, or what came out crosses.
+// free vertices can. `line_edges`: of the outside, which stay. Options as of simplify_sheet; where the size is a
+// deviation, pieces that are farther from the scan are made again with shorter edges, a few times. Throws NotMeshable
+// where no valid pieces come out, what came out crosses, or a deviation that is required is not reached.
 InterfaceResult add_interfaces(const BodyComplex& scan, const SimplifyOptions& options,
                                const std::vector<FeatureEdge>& line_edges, BodyComplex& made, const Progress& progress);
 

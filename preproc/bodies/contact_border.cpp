@@ -33,7 +33,7 @@ class Border {
   }
 
   // The vertex of the border that is nearest to the point, a new one where none is within the tolerance.
-  std::uint32_t vertex_at(const Vec3& point, double tolerance) {
+  std::uint32_t vertex_at(const Vec3& point, double tolerance, double farthest) {
     double nearest = std::numeric_limits<double>::infinity();
     FeatureEdge edge{};
     Vec3 foot = Vec3::Zero();
@@ -48,7 +48,7 @@ class Border {
         edge = {a, b};
         foot = at;
       }
-    if (!(nearest <= farthest_apart * tolerance)) fail_unclear(point, nearest, farthest_apart * tolerance);
+    if (!(nearest <= farthest)) fail_unclear(point, nearest, farthest);
     const auto [a, b] = edge;
     const double to_a = (surface_.point(a) - foot).norm(), to_b = (surface_.point(b) - foot).norm();
     if (std::min(to_a, to_b) <= tolerance) return to_a <= to_b ? a : b;
@@ -109,15 +109,16 @@ std::vector<FeatureEdge> border_of_marked(const SurfaceMesh& mesh, const std::ve
 
 std::vector<std::uint32_t> match_borders(SplitSurface& first, std::vector<FeatureEdge> border_of_first,
                                          SplitSurface& second, const std::vector<FeatureEdge>& border_of_second,
-                                         double tolerance) {
+                                         double tolerance, double resolution) {
   Border border(first, border_of_first);
   std::vector<std::uint32_t> image(second.mesh().vertices.size(), no_image);
   for (const FeatureEdge& edge : border_of_second)
     for (const std::uint32_t v : edge)
-      if (image[v] == no_image) image[v] = border.vertex_at(second.point(v), tolerance);
+      if (image[v] == no_image)
+        image[v] = border.vertex_at(second.point(v), tolerance, std::max(farthest_apart * tolerance, resolution));
   for (const auto& [a, b] : border_of_second) {
     const double length = (second.point(b) - second.point(a)).norm();
-    const double longest = longest_way * length + way_at_corners * tolerance;
+    const double longest = longest_way * length + std::max(way_at_corners * tolerance, 2 * resolution);
     const auto way = border.between(image[a], image[b], longest);
     if (!way) fail_unclear(second.point(a), length, longest);
     std::uint32_t from = a;

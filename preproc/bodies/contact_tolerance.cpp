@@ -15,14 +15,16 @@ constexpr double rounding = 1e-5;  // of the larger diagonal
 // A strip of width w that turns by an angle a to the next is w / 2 tan(a / 4) off its arc; a regular triangle of that
 // height, whose corners lie on a ball, eight thirds of it.
 constexpr double of_triangles = 8.0 / 3 / 2;
-// The largest sagitta is the tolerance, but no more than so many times what nearly all triangles have: a few spikes of a
-// scan are none.
+// The largest sagitta is the tolerance, but no more than so many times what nearly all triangles have: a few spikes of
+// a scan are none.
 constexpr double quantile = 0.95, most_over_quantile = 4;
 
 class Sagittas {
  public:
   explicit Sagittas(const SurfaceMesh& mesh)
-      : mesh_(mesh), normals_(face_normals(mesh)), neighbours_(MeshAdjacency(mesh).neighbours) {}
+      : mesh_(mesh), normals_(face_normals(mesh)), neighbours_(MeshAdjacency(mesh).neighbours) {
+    find_rims();
+  }
 
   // The largest towards the neighbours to which the surface is smooth.
   double of(std::uint32_t f) const {
@@ -39,10 +41,44 @@ class Sagittas {
     return largest;
   }
 
+  // Of the rims around a triangle, on their arcs.
+  double of_rims(std::uint32_t f) const {
+    double largest = 0;
+    const Triangle& t = mesh_.triangles[f];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = t[(k + 1) % 3], b = t[(k + 2) % 3];
+      if (!is_rim(f, k)) continue;
+      for (const auto& [from, over] : {std::pair(a, b), std::pair(b, a)})
+        for (const std::uint32_t to : rim_ends_[over]) {
+          const Vec3 way = mesh_.vertices[over] - mesh_.vertices[from], on = mesh_.vertices[to] - mesh_.vertices[over];
+          const double cosine = way.normalized().dot(on.normalized());
+          if (to != from && cosine >= facing)
+            largest = std::max(largest, way.norm() / 2 * std::tan(std::acos(std::min(1.0, cosine)) / 4));
+        }
+    }
+    return largest;
+  }
+
  private:
+  bool is_rim(std::uint32_t f, std::size_t k) const {
+    const std::uint32_t n = neighbours_[f][k];
+    return n != no_face && normals_[f].dot(normals_[n]) < facing;
+  }
+
+  void find_rims() {
+    rim_ends_.resize(mesh_.vertices.size());
+    for (std::uint32_t f = 0; f < mesh_.triangles.size(); ++f)
+      for (std::size_t k = 0; k < 3; ++k)
+        if (is_rim(f, k)) rim_ends_[mesh_.triangles[f][(k + 1) % 3]].push_back(mesh_.triangles[f][(k + 2) % 3]);
+    for (std::uint32_t f = 0; f < mesh_.triangles.size(); ++f)
+      for (std::size_t k = 0; k < 3; ++k)
+        if (is_rim(f, k)) rim_ends_[mesh_.triangles[f][(k + 2) % 3]].push_back(mesh_.triangles[f][(k + 1) % 3]);
+  }
+
   const SurfaceMesh& mesh_;
   std::vector<Vec3> normals_;
   std::vector<Triangle> neighbours_;
+  std::vector<std::vector<std::uint32_t>> rim_ends_;  // per vertex
 };
 
 double largest_sagitta(const SurfaceMesh& mesh, std::vector<std::uint32_t> triangles) {
@@ -51,7 +87,7 @@ double largest_sagitta(const SurfaceMesh& mesh, std::vector<std::uint32_t> trian
   if (triangles.empty()) return 0;
   const Sagittas sagittas(mesh);
   std::vector<double> all;
-  for (const std::uint32_t f : triangles) all.push_back(sagittas.of(f));
+  for (const std::uint32_t f : triangles) all.push_back(std::max(sagittas.of(f), sagittas.of_rims(f)));
   const auto at = static_cast<std::ptrdiff_t>(quantile * static_cast<double>(all.size() - 1));
   std::nth_element(all.begin(), all.begin() + at, all.end());
   return std::min(*std::max_element(all.begin(), all.end()), most_over_quantile * all[static_cast<std::size_t>(at)]);

@@ -1,6 +1,8 @@
 #include "preproc/bodies/body_complex.hpp"
 #include "preproc/bodies/contact_border.hpp"
 #include "preproc/bodies/contact_faces.hpp"
+#include "preproc/bodies/contact_gap.hpp"
+#include "preproc/bodies/contact_refinement.hpp"
 #include "preproc/bodies/facing_surface.hpp"
 #include "preproc/bodies/imprint.hpp"
 #include "preproc/bodies/split_surface.hpp"
@@ -20,6 +22,8 @@ namespace {
 constexpr double doubtful_gap = 10;
 constexpr double rounding = 1e-6;           // of the diagonal
 constexpr double shortest_contact = 0.005;  // along a rim, of the diagonal
+// Of the diagonal: how exactly a contact's border is found where no rim is, but no finer than so many tolerances.
+constexpr double resolution = 0.004, resolution_in_tolerances = 2;
 
 std::vector<std::uint32_t> all_of(const SurfaceMesh& mesh) {
   std::vector<std::uint32_t> all(mesh.triangles.size());
@@ -52,7 +56,21 @@ class Join {
     SplitSurface first(complex_.mesh), second(body_);
     imprint_rims(first, on_complex, body_, own, tolerance_, step);
     imprint_rims(second, on_body, complex_.mesh, outer_, tolerance_, step);
-    glue(first, second, on_complex, on_body);
+    std::vector<bool> outer(first.mesh().triangles.size());
+    for (std::uint32_t f = 0; f < outer.size(); ++f) outer[f] = complex_.sides[first.origin(f)].front == no_body;
+    std::vector<bool> all(second.mesh().triangles.size(), true);
+    const double edge =
+        std::max(resolution * bounding_box(body_.vertices).diagonal(), resolution_in_tolerances * tolerance_);
+    const std::size_t contacts = complex_.contacts.size();
+    try {
+      glue(first, second, outer, all, on_complex, on_body, tolerance_);
+    } catch (const NotMeshable&) {
+      // Where a contact ends at no rim, triangles may be too large for its border.
+      complex_.contacts.resize(contacts);
+      refine_contact_border(first, outer, on_complex, on_body, tolerance_, edge);
+      refine_contact_border(second, all, on_body, on_complex, tolerance_, edge);
+      glue(std::move(first), std::move(second), outer, all, on_complex, on_body, edge);
+    }
   }
 
  private:
@@ -99,47 +117,34 @@ class Join {
     fail("the bodies overlap", depth, "--contact " + error_text(1.01 * depth) + ", or move them apart", place, other);
   }
 
-  // Of the middles and corners of the body's triangles, and the middles of the others'.
+  // Where the surfaces face one another without touching; a rounding that departs from a contact is none.
   void refuse_gaps(const FacingSurface& on_complex, const FacingSurface& on_body) const {
-    const double reach = doubtful_gap * tolerance_;
-    double largest = tolerance_;
-    Vec3 place;
-    std::uint32_t other = no_body;
-    const auto look = [&](const Vec3& p, const std::optional<Foot>& foot, std::uint32_t behind) {
-      if (!foot || foot->height <= largest) return;
-      largest = foot->height;
-      place = p;
-      other = behind;
-    };
-    for (std::uint32_t f = 0; f < body_.triangles.size(); ++f) {
-      const Triangle& t = body_.triangles[f];
-      for (const Vec3& p : {centroid(body_, t), body_.vertices[t[0]], body_.vertices[t[1]], body_.vertices[t[2]]}) {
-        const auto foot = on_complex.under(p, on_body.normal(f), reach);
-        look(p, foot, foot ? complex_.sides[foot->triangle].behind : no_body);
-      }
+    std::optional<Gap> gap = find_gap(body_, all_of(body_), on_body, on_complex, tolerance_, doubtful_gap * tolerance_);
+    const std::optional<Gap> other =
+        find_gap(complex_.mesh, outer_, on_complex, on_body, tolerance_, doubtful_gap * tolerance_);
+    std::uint32_t behind = gap ? complex_.sides[gap->foot].behind : no_body;
+    if (other && (!gap || other->height > gap->height)) {
+      gap = other;
+      behind = complex_.sides[gap->triangle].behind;
     }
-    for (const std::uint32_t f : outer_) {
-      const Vec3 p = centroid(complex_.mesh, complex_.mesh.triangles[f]);
-      look(p, on_body.under(p, on_complex.normal(f), reach), complex_.sides[f].behind);
-    }
-    if (other != no_body)
-      fail("there is a gap between the bodies", largest,
-           "--contact " + error_text(1.01 * largest) + " to close it, --contact " + error_text(tolerance_) +
+    if (gap)
+      fail("there is a gap between the bodies", gap->height,
+           "--contact " + error_text(1.01 * gap->height) + " to close it, --contact " + error_text(tolerance_) +
                " to leave it",
-           place, other);
+           gap->place, behind);
   }
 
-  void glue(SplitSurface& first, SplitSurface& second, const FacingSurface& on_complex, const FacingSurface& on_body) {
-    std::vector<bool> outer(first.mesh().triangles.size());
-    for (std::uint32_t f = 0; f < outer.size(); ++f) outer[f] = complex_.sides[first.origin(f)].front == no_body;
-    const std::vector<bool> own(second.mesh().triangles.size(), true);
+  // `outer`, `own`: the triangles of both that may touch; `exactness`: of the borders of the contact.
+  void glue(SplitSurface first, SplitSurface second, const std::vector<bool>& outer, const std::vector<bool>& own,
+            const FacingSurface& on_complex, const FacingSurface& on_body, double exactness) {
     std::vector<bool> of_first = contact_faces(first, outer, on_complex, on_body, tolerance_);
     std::vector<bool> of_second = contact_faces(second, own, on_body, on_complex, tolerance_);
     note_contacts(second, of_second, on_complex, on_body);
     const auto border = border_of_marked(first.mesh(), outer, of_first);
     const auto border_of_second = border_of_marked(second.mesh(), own, of_second);
     if (border.empty() != border_of_second.empty()) fail_unclear(first, border, second, border_of_second);
-    const std::vector<std::uint32_t> image = match_borders(first, border, second, border_of_second, tolerance_);
+    const std::vector<std::uint32_t> image =
+        match_borders(first, border, second, border_of_second, tolerance_, exactness);
     // What the borders' new vertices have split.
     for (auto f = static_cast<std::uint32_t>(of_first.size()); f < first.mesh().triangles.size(); ++f)
       of_first.push_back(of_first[first.split_from(f)]);

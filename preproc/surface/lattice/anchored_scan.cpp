@@ -288,7 +288,10 @@ AnchoredScan anchor_scan(const FeatureScan& scan, const SizingOptions& options, 
   SampledPlaces places;
   const auto sample = [&] {
     const std::vector<FeatureEdge> border = welded.border();
-    curves = trace_feature_curves(welded.mesh.vertices, welded.sharp(border), border, welded.edge_length);
+    // Of a held border all corners are known, and are vertices that are held.
+    const CornerOptions corners =
+        scan.held_border.empty() ? CornerOptions{} : CornerOptions{.turn_deg = 180, .jagged_turn_deg = 180};
+    curves = trace_feature_curves(welded.mesh.vertices, welded.sharp(border), border, welded.edge_length, corners);
     places = sample_curves(welded.mesh, curves, welded.edge_length, {.tolerance = tolerance});
     if (!scan.held_border.empty()) take_held(curves, scan.held_border, places);
   };
