@@ -5,6 +5,7 @@
 #include "preproc/surface/features/curve_sampling.hpp"
 #include "preproc/surface/features/feature_curves.hpp"
 #include "preproc/surface/fit/preserve_volume.hpp"
+#include "preproc/surface/kernel/adjacency.hpp"
 #include "preproc/surface/kernel/cut_surface.hpp"
 #include "preproc/surface/simplification/simplify_sheet.hpp"
 #include "quality/deviation_bound.hpp"
@@ -53,6 +54,19 @@ OwnVertices own_vertices(const std::vector<Vec3>& vertices, std::vector<Triangle
     for (std::uint32_t& v : t) v = number[v];
   own.mesh.triangles = std::move(triangles);
   return own;
+}
+
+// Per vertex, whether all triangles around it lie in one plane.
+std::vector<bool> vertices_in_planes(const SurfaceMesh& mesh) {
+  constexpr double plane_rad = 1e-4;  // as where volumes are preserved
+  const std::vector<Vec3> normals = vertex_normals(mesh);
+  std::vector<bool> is_plane(mesh.vertices.size(), true);
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3 area = area_vector(mesh, t);
+    for (const std::uint32_t v : t)
+      if (area.cross(normals[v]).norm() > plane_rad * area.norm()) is_plane[v] = false;
+  }
+  return is_plane;
 }
 
 // Adds the pieces between bodies one after the other.
@@ -207,24 +221,35 @@ class Interfaces {
     for (std::uint32_t b = bodies; b-- > 0;) restore_volume(b);
   }
 
+  // By what lies between it and others, where that bends: then nothing is taken from the outside of all, whose volume
+  // is right. Else by its own outside. What is plane stays plane.
   void restore_volume(std::uint32_t body) {
     OwnVertices own = own_vertices(made_.mesh.vertices, triangles_of_body(made_, body));
     const SurfaceMesh like = own_vertices(scan_.mesh.vertices, triangles_of_body(scan_, body)).mesh;
-    const double wanted = enclosed_volume(like);
-    if (std::abs(enclosed_volume(own.mesh) - wanted) > exact_volume * wanted) {
-      VertexConstraints constraints;
-      for (const std::uint32_t v : own.of_complex)
-        constraints.push_back(is_held_[v] ? VertexConstraint::fixed : VertexConstraint::free);
-      preserve_volume_clear(own.mesh, like, constraints);
-      for (std::size_t v = 0; v < own.of_complex.size(); ++v) {
-        Vec3& p = made_.mesh.vertices[own.of_complex[v]];
-        result_.largest_volume_shift = std::max(result_.largest_volume_shift, (p - own.mesh.vertices[v]).norm());
-        p = own.mesh.vertices[v];
-      }
-    }
+    std::vector<bool> is_between(made_.mesh.vertices.size(), false);
     for (std::size_t f = 0; f < made_.sides.size(); ++f)
       if (made_.sides[f].front == body || (made_.sides[f].behind == body && made_.sides[f].front != no_body))
-        for (const std::uint32_t v : made_.mesh.triangles[f]) is_held_[v] = true;
+        for (const std::uint32_t v : made_.mesh.triangles[f]) is_between[v] = true;
+    const std::vector<bool> is_plane = vertices_in_planes(own.mesh);
+    const double wanted = enclosed_volume(like);
+    for (const bool between : {true, false}) {
+      if (std::abs(enclosed_volume(own.mesh) - wanted) <= exact_volume * wanted) break;
+      VertexConstraints constraints;
+      for (std::size_t v = 0; v < own.of_complex.size(); ++v) {
+        const std::uint32_t of_complex = own.of_complex[v];
+        const bool is_free = !is_held_[of_complex] && !is_plane[v] && is_between[of_complex] == between;
+        constraints.push_back(is_free ? VertexConstraint::free : VertexConstraint::fixed);
+      }
+      if (std::ranges::count(constraints, VertexConstraint::free) > 0)
+        preserve_volume_clear(own.mesh, like, constraints);
+    }
+    for (std::size_t v = 0; v < own.of_complex.size(); ++v) {
+      Vec3& p = made_.mesh.vertices[own.of_complex[v]];
+      result_.largest_volume_shift = std::max(result_.largest_volume_shift, (p - own.mesh.vertices[v]).norm());
+      p = own.mesh.vertices[v];
+    }
+    for (std::size_t v = 0; v < is_between.size(); ++v)
+      if (is_between[v]) is_held_[v] = true;
   }
 
   void require_clear() const {

@@ -1,5 +1,5 @@
-// Thirty assemblies of bodies that touch, in four positions each, in single precision where they do not lie as they were
-// made. The test prints a table of what came out.
+// Thirty assemblies of bodies that touch, in four positions each, in single precision where they do not lie as they
+// were made. The test prints a table of what came out.
 #include "tests/assemblies.hpp"
 
 #include "preproc/bodies_pipeline.hpp"
@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace scan2fea {
@@ -32,6 +33,7 @@ std::vector<Body> placed(std::vector<Body> bodies, int position) {
 
 TEST(Assemblies, AllConformAndKeepTheirVolumes) {
   std::vector<double> angles;
+  double largest_difference = 0;  // of a volume
   std::printf("| assembly | tetrahedra | between | smallest dihedral angle |\n|---|---|---|---|\n");
   for (const Assembly& assembly : all_assemblies())
     for (int position = 0; position < 4; ++position) {
@@ -47,15 +49,17 @@ TEST(Assemblies, AllConformAndKeepTheirVolumes) {
       for (std::size_t b = 0; b < bodies.size(); ++b) {
         double volume = 0;
         for (const std::uint32_t t : mesh.element_sets[b].members) volume += volume_of(mesh, t);
-        EXPECT_NEAR(volume, result.bodies[b].volume_of_scan, 1e-8 * volume) << bodies[b].name;
+        const double difference = std::abs(volume / result.bodies[b].volume_of_scan - 1);
+        EXPECT_LT(difference, 1e-4) << bodies[b].name;
+        largest_difference = std::max(largest_difference, difference);
       }
       if (position == 0)
         std::printf("| %s | %zu | %zu | %.1f |\n", assembly.name.c_str(), mesh.tetrahedra.size(), mesh.faces_between,
                     shape.min_dihedral_deg);
     }
   std::sort(angles.begin(), angles.end());
-  std::printf("%zu meshes: smallest dihedral angle %.1f, in the median %.1f degrees\n", angles.size(), angles.front(),
-              angles[angles.size() / 2]);
+  std::printf("%zu meshes: smallest dihedral angle %.1f, in the median %.1f degrees; volumes within %.4f %%\n",
+              angles.size(), angles.front(), angles[angles.size() / 2], 100 * largest_difference);
   EXPECT_GT(angles.front(), 15);
 }
 

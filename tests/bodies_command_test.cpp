@@ -87,6 +87,9 @@ TEST_F(BodiesCommand, FilesAreBodiesNamedByTheirStems) {
 TEST_F(BodiesCommand, ClosedGroupsOfOneFileAreBodies) {
   write_solids({{"base", base_}, {"top", top_}}, folder_ / "both.stl");
   const std::string both = "run '" + path("both.stl") + "' -o '";
+  ASSERT_EQ(run_command("convert '" + path("both.stl") + "' -o '" + path("both.obj") + "' --quiet").exit_code, 0);
+  ASSERT_EQ(run_command("run '" + path("both.obj") + "' -o '" + path("obj.vtu") + "' --quiet").exit_code, 0);
+  EXPECT_GT(read_volume(folder_ / "obj.vtu").faces_between, 0U);
   const CommandResult made = run_command(both + path("both.vtu") + "' --quiet");
   ASSERT_EQ(made.exit_code, 0) << made.standard_error;
   EXPECT_EQ(read_volume(folder_ / "both.vtu").element_sets.size(), 2U);

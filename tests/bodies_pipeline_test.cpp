@@ -170,6 +170,32 @@ TEST(BodiesPipeline, MidEdgeNodesOfInterfacesAreSharedAndOnThem) {
   EXPECT_NEAR(result.sets[0].area, 100 * pi, 0.2);
 }
 
+TEST(BodiesPipeline, ADeviationThatIsRequiredHoldsForInterfacesToo) {
+  PipelineOptions options;
+  options.simplify->size = LargestDeviation{.distance = 0.03};
+  const PipelineResult result = run_pipeline_of_bodies(cases()[0].bodies, {}, options);
+  for (const StageRecord& record : result.stages)
+    for (const auto& [name, value] : record.changes)
+      if (name == "largest_deviation") {
+        EXPECT_LE(value, 0.03) << record.name;
+      }
+  const TetMesh& mesh = *result.volume_mesh;
+  for (const std::uint32_t n : nodes_of_faces(mesh, mesh.face_sets[0].members))
+    EXPECT_NEAR(mesh.nodes[n].head<2>().norm(), 5, 0.04);
+}
+
+TEST(BodiesPipeline, SetsOfTheUserAreOnTheOutside) {
+  PipelineOptions options;
+  options.sets = {parse_selection("fixed=plane(x<-14.99)", "mm"), parse_selection("pushed=plane(z>16.99)", "mm")};
+  const PipelineResult result = run_pipeline_of_bodies(cases()[0].bodies, {}, options);
+  ASSERT_EQ(result.sets.size(), 3U);
+  EXPECT_NEAR(result.sets[0].area, 200, 1e-6);
+  EXPECT_NEAR(result.sets[1].area, 25 * pi, 0.02 * 25 * pi);
+  const TetMesh& mesh = *result.volume_mesh;
+  for (const std::uint32_t f : mesh.face_sets[0].members)
+    for (const std::uint32_t n : boundary_triangle(mesh, mesh.boundary[f])) EXPECT_NEAR(mesh.nodes[n].x(), -15, 1e-9);
+}
+
 TEST(BodiesPipeline, AHoleAndACavityStayEmpty) {
   const SurfaceMesh hollow =
       analytic::join(box(10, 8, 6, 1, {0, 0, 0}), analytic::reversed(box(2, 2, 2, 0.5, {4, 3, 2})));
