@@ -44,6 +44,13 @@ Progress in_half_of_the_time(const Progress& progress) {
   return progress.until(progress.end(), now + (progress.end() - now) / 2);
 }
 
+// Where there is no scan beside the surface, where corner nodes are not its vertices, and where time is short.
+CurveResult curve_on_scan(TetMesh& mesh, const SurfaceMesh& scan) {
+  add_mid_edge_nodes(mesh);
+  EdgePlaces to = nearest_on_scan(mesh, TriangleTree(scan));
+  return curve_mid_edge_nodes(mesh, to);
+}
+
 void note_left_out(const Progress& stage, const char* what, StageRecord& record, PipelineResult& result) {
   if (!stage.ran_short()) return;
   result.left_out.emplace_back(what);
@@ -177,9 +184,14 @@ void MeshMaker::tetrahedralize(const Progress& progress) {
 }
 
 void MeshMaker::curve(const Progress& progress) {
-  if (!search_ || !made_.filled.boundary_parent.empty()) return;
   log_.run("second order", [&](StageRecord& record) {
-    describe(make_second_order(*search_, tetrahedralization_, made_, progress), in_scan_, record);
+    SecondOrderResult curved;
+    const Progress in_time = progress.until(progress.end());
+    if (search_ && made_.filled.boundary_parent.empty())
+      in_time.improve([&](const Progress& p) { curved = make_second_order(*search_, tetrahedralization_, made_, p); });
+    if (made_.filled.mesh.order() == 1) curved.curved = curve_on_scan(made_.filled.mesh, scan());
+    describe(curved, in_scan_, record);
+    note_left_out(in_time, "curved sides that are fitted to the scan", record, result_);
   });
 }
 
@@ -200,13 +212,6 @@ void hand_on_creases(const SurfaceMesh& enriched, const std::vector<FeatureEdge>
     return;
   simplification->given_features = lines_of(enriched, creases);
   simplification->may_drop_given = true;
-}
-
-// Without a scan beside the surface, or where corner nodes are not the surface's vertices.
-CurveResult curve_on_scan(TetMesh& mesh, const SurfaceMesh& scan) {
-  add_mid_edge_nodes(mesh);
-  EdgePlaces to = nearest_on_scan(mesh, TriangleTree(scan));
-  return curve_mid_edge_nodes(mesh, to);
 }
 
 // What the scanner has seen of the repaired scan; nothing where it has seen all of it.
@@ -280,10 +285,6 @@ void run_stages(SurfaceMesh scan, const SurfaceMesh* seen, const PipelineOptions
     const std::vector<std::uint32_t>& parent = made.filled.boundary_parent;  // where the boundary was split
     result.volume_mesh->face_sets = parent.empty() ? result.face_sets : carried_sets(result.face_sets, parent);
     if (options.order == 2) {
-      if (result.volume_mesh->order() == 1)
-        log.run("second order", [&](StageRecord& record) {
-          describe({.curved = curve_on_scan(*result.volume_mesh, start)}, InScan({}), record);
-        });
       measure_sets(result);
       result.weak_places = find_weak_places(result.surface, &*result.volume_mesh, result.reference());
     }

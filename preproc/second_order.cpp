@@ -1,32 +1,36 @@
 #include "preproc/second_order.hpp"
 
 #include "preproc/mesh/error.hpp"
+#include "preproc/surface/curved/fit_curves.hpp"
 #include "preproc/surface/curved/keep_curved_volume.hpp"
 #include "preproc/volume/two_sided_elements.hpp"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 namespace scan2fea {
 namespace {
 
-bool filled_anew(const SurfaceMesh& surface, const TetrahedralizeOptions& tetrahedralization, FilledSurface& made,
-                 const Progress& progress) {
+// None where none came out, for want of time too.
+std::optional<TetrahedralizeResult> filled_anew(const SurfaceMesh& surface,
+                                                const TetrahedralizeOptions& tetrahedralization,
+                                                const Progress& progress) {
   try {
-    made.filled = tetrahedralize(surface, tetrahedralization, progress);
-    return true;
+    return tetrahedralize(surface, tetrahedralization, progress);
   } catch (const MeshingFailed&) {
-    return false;
+    return {};
   } catch (const NotMeshable&) {
-    return false;
+    return {};
   }
 }
 
 // Nodes that are eased change the volume a little, which the other nodes of edges take up: by so little that no element
 // suffers. (Corners would count for nothing: their shape functions' integrals are zero.)
-CurveResult curve(FittedCurves& fitted, TetMesh& mesh) {
+CurveResult curve(FittedCurves& fitted, TetMesh& mesh, const Progress& progress) {
   add_mid_edge_nodes(mesh);
   EdgePlaces to{fitted.surface.edges, fitted.surface.mid};
-  CurveResult result = curve_mid_edge_nodes(mesh, to);
+  CurveResult result = curve_mid_edge_nodes(mesh, to, progress);
   if (result.eased == 0) return result;
   const std::size_t corners = fitted.surface.corners.vertices.size();
   std::fill_n(fitted.directions.begin(), corners, Vec3::Zero());
@@ -52,15 +56,18 @@ CurveResult curve(FittedCurves& fitted, TetMesh& mesh) {
 SecondOrderResult make_second_order(const Simplification& search, const TetrahedralizeOptions& tetrahedralization,
                                     FilledSurface& made, const Progress& progress) {
   SecondOrderResult result;
-  FittedCurves fitted = search.curved(made.simplified, made.surface);
-  if (!filled_anew(fitted.surface.corners, tetrahedralization, made, progress)) {
+  FittedCurves fitted = search.curved(made.simplified, made.surface, false, progress);
+  std::optional<TetrahedralizeResult> filled = filled_anew(fitted.surface.corners, tetrahedralization, progress);
+  if (!filled) {
     result.corners_kept = true;
-    fitted = search.curved(made.simplified, made.surface, true);
+    fitted = search.curved(made.simplified, made.surface, true, progress);
+    filled = made.filled;
   }
   result.straight_triangles = fitted.straight;
   result.parted_elements =
-      part_two_sided_elements(made.filled.mesh, fitted.surface.corners.vertices.size(), made.simplified.line_edges);
-  result.curved = curve(fitted, made.filled.mesh);
+      part_two_sided_elements(filled->mesh, fitted.surface.corners.vertices.size(), made.simplified.line_edges);
+  result.curved = curve(fitted, filled->mesh, progress);
+  made.filled = std::move(*filled);
   made.surface = std::move(fitted.surface.corners);
   return result;
 }

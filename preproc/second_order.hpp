@@ -13,12 +13,13 @@ struct SecondOrderResult {
   CurveResult curved;
   std::size_t straight_triangles = 0;  // see FittedCurves
   std::size_t parted_elements = 0;     // see two_sided_elements.hpp
-  bool corners_kept = false;           // since between corners on the scan no tetrahedra came out
+  bool corners_kept = false;           // since between corners on the scan no tetrahedra came out in time
 };
 
 // `made` came of `search`. Its triangles are fitted to the scan as curved ones, for which their corners move, too; then
 // it is filled anew, and its tetrahedra get their mid-edge nodes. The enclosed volume is that of the straight surface.
-// Throws Cancelled.
+// Throws Cancelled and OutOfTime, and then
+// `made` is as it was.
 SecondOrderResult make_second_order(const Simplification& search, const TetrahedralizeOptions& tetrahedralization,
                                     FilledSurface& made, const Progress& progress = {});
 

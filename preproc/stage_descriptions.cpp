@@ -187,7 +187,7 @@ void describe(const SecondOrderResult& result, const InScan& in_scan, StageRecor
                     {"least_scaled_jacobian", curved.least_scaled_jacobian},
                     {"curved_volume", unit * unit * unit * curved.volume}};
   if (result.corners_kept)
-    record.remarks.emplace_back("corners stayed where they were: with them on the scan no tetrahedra came out");
+    record.remarks.emplace_back("corners stayed where they were: with them on the scan no tetrahedra came out in time");
 }
 
 }  // namespace scan2fea

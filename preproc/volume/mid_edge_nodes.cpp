@@ -119,7 +119,7 @@ std::vector<int> ease(TetMesh& mesh, const std::vector<Vec3>& straight, std::vec
 
 }  // namespace
 
-CurveResult curve_mid_edge_nodes(TetMesh& mesh, EdgePlaces& to) {
+CurveResult curve_mid_edge_nodes(TetMesh& mesh, EdgePlaces& to, const Progress& progress) {
   const std::vector<Vec3> straight = mesh.nodes;
   std::vector<std::uint32_t> node_of_place(to.places.size(), no_node);
   std::vector<bool> held(mesh.nodes.size(), false);
@@ -136,7 +136,7 @@ CurveResult curve_mid_edge_nodes(TetMesh& mesh, EdgePlaces& to) {
     if (std::ranges::any_of(mesh.mid_edge_nodes[t], [&](std::uint32_t v) { return held[v]; }) &&
         curved_quality(mesh, t) < 1)
       poor.push_back(t);
-  relocate_mid_edge_nodes(mesh, poor, held, 1);
+  relocate_mid_edge_nodes(mesh, poor, held, 1, progress);
   std::vector<std::uint32_t> suspects;
   for (std::uint32_t t = 0; t < mesh.tetrahedra.size(); ++t)
     if (std::ranges::any_of(mesh.mid_edge_nodes[t], [&](auto v) { return mesh.nodes[v] != straight[v]; }))

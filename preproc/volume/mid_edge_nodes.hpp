@@ -1,6 +1,7 @@
 // Second-order tetrahedra.
 #pragma once
 
+#include "preproc/mesh/progress.hpp"
 #include "preproc/mesh/tet_mesh.hpp"
 #include "quality/triangle_tree.hpp"
 
@@ -35,7 +36,8 @@ struct CurveResult {
 };
 
 // Puts the nodes of boundary edges to their places, or as far towards them as the elements stay good: then `to` has
-// where they are. The mesh is of second order with positive tetrahedra. Deterministic, near linear.
-CurveResult curve_mid_edge_nodes(TetMesh& mesh, EdgePlaces& to);
+// where they are. The mesh is of second order with positive tetrahedra. Throws Cancelled and OutOfTime, and
+// then the mesh is of no use. Deterministic, near linear.
+CurveResult curve_mid_edge_nodes(TetMesh& mesh, EdgePlaces& to, const Progress& progress = {});
 
 }  // namespace scan2fea

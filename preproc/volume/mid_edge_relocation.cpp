@@ -23,7 +23,7 @@ class MidEdgeRelocation {
         if (!held[v]) around_[v].push_back(t);
   }
 
-  void run(const std::vector<std::uint32_t>& poor, double wanted) {
+  void run(const std::vector<std::uint32_t>& poor, double wanted, const Progress& progress) {
     for (int sweep = 0; sweep < most_sweeps; ++sweep) {
       std::vector<std::pair<double, std::uint32_t>> worst_first;
       for (const std::uint32_t t : poor) {
@@ -32,8 +32,10 @@ class MidEdgeRelocation {
       }
       std::sort(worst_first.begin(), worst_first.end());
       bool has_moved = false;
-      for (const auto& [quality, t] : worst_first)
-        for (std::size_t e = 0; e < 6; ++e) has_moved |= move(t, e, wanted);
+      for (std::size_t i = 0; i < worst_first.size(); ++i) {
+        if (i % 16 == 0) progress("curved elements", sweep / static_cast<double>(most_sweeps));
+        for (std::size_t e = 0; e < 6; ++e) has_moved |= move(worst_first[i].second, e, wanted);
+      }
       if (!has_moved) return;
     }
   }
@@ -97,8 +99,8 @@ double curved_quality(const TetMesh& mesh, std::size_t tetrahedron) {
 }
 
 void relocate_mid_edge_nodes(TetMesh& mesh, const std::vector<std::uint32_t>& poor, const std::vector<bool>& held,
-                             double wanted) {
-  MidEdgeRelocation(mesh, held).run(poor, wanted);
+                             double wanted, const Progress& progress) {
+  MidEdgeRelocation(mesh, held).run(poor, wanted, progress);
 }
 
 }  // namespace scan2fea

@@ -100,7 +100,7 @@ void settle(FittedCurves& fitted, const CurvedSurface& straight) {
 }  // namespace
 
 FittedCurves fit_curves(const SurfaceMesh& surface, const FeatureNet& net, const ReferenceSurface& scan,
-                        bool keep_corners) {
+                        bool keep_corners, const Progress& progress) {
   const CurvedSurface straight(surface);
   FittedCurves fitted{.surface = straight, .directions = {}, .volumes = volumes_of_components(surface)};
   fitted.directions = directions_of(fitted.surface, keep_corners);
@@ -108,8 +108,12 @@ FittedCurves fit_curves(const SurfaceMesh& surface, const FeatureNet& net, const
   {
     CurvedSurface cut = cut_open(surface, net);
     CurveFitter fitter(fitted.surface, cut, net.patch_of_face, scan);
-    for (int round = 0; round < rounds; ++round) fitter.step(fitted.directions);
+    for (int round = 0; round < rounds; ++round) {
+      progress("curved sides", round / (rounds + 1.0));
+      fitter.step(fitted.directions);
+    }
   }
+  progress("curved sides", rounds / (rounds + 1.0));
   settle(fitted, straight);
   return fitted;
 }

@@ -6,6 +6,7 @@
 // Gauss and Newton). The error then falls with the third to fourth power of the edge length instead of the second.
 #pragma once
 
+#include "preproc/mesh/progress.hpp"
 #include "preproc/surface/curved/curved_surface.hpp"
 #include "preproc/surface/features/feature_net.hpp"
 #include "preproc/surface/fit/reference_surface.hpp"
@@ -25,8 +26,9 @@ struct FittedCurves {
 // `surface` is a fitted surface of the scan with its net. Connectivity stays, and so does the volume of each component.
 // Nodes on lines of the net lie on the scan's lines. `keep_corners`: only nodes of edges move. No two triangles meet
 // that the straight ones kept apart, each taken as four plane ones, and no triangle of corners is below 30 degrees that
-// was not so before. Deterministic for any number of threads. About 40 us a triangle.
+// was not so before. Throws
+// Cancelled and OutOfTime. Deterministic for any number of threads. About 40 us a triangle.
 FittedCurves fit_curves(const SurfaceMesh& surface, const FeatureNet& net, const ReferenceSurface& scan,
-                        bool keep_corners = false);
+                        bool keep_corners = false, const Progress& progress = {});
 
 }  // namespace scan2fea

@@ -2,6 +2,7 @@
 
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/require_memory.hpp"
+#include "preproc/surface/curved/fit_curves.hpp"
 #include "preproc/surface/features/feature_selection.hpp"
 #include "preproc/surface/features/match_features.hpp"
 #include "preproc/surface/features/scan_noise.hpp"
@@ -253,8 +254,9 @@ double Simplification::way_off() const {
   return state_->search->way_off();
 }
 
-FittedCurves Simplification::curved(const SimplifyResult& result, const SurfaceMesh& surface, bool keep_corners) const {
-  return fit_curves(surface, result.on_scan->net, result.on_scan->scan->reference(), keep_corners);
+FittedCurves Simplification::curved(const SimplifyResult& result, const SurfaceMesh& surface, bool keep_corners,
+                                    const Progress& progress) const {
+  return fit_curves(surface, result.on_scan->net, result.on_scan->scan->reference(), keep_corners, progress);
 }
 
 SimplifyResult simplify(SurfaceMesh& mesh, const SimplifyOptions& options, const Progress& progress) {

@@ -5,7 +5,6 @@
 
 #include "preproc/mesh/progress.hpp"
 #include "preproc/mesh/surface_mesh.hpp"
-#include "preproc/surface/curved/fit_curves.hpp"
 #include "preproc/surface/simplification/simplify_options.hpp"
 #include "preproc/surface/sizing/shorter_edges.hpp"
 
@@ -14,6 +13,8 @@
 #include <span>
 
 namespace scan2fea {
+
+struct FittedCurves;
 
 // `mesh` must be manifold, outward and free of self-intersections (see `repair`), closed or with borders; so is the
 // result, with the same genus, components and borders, and with a chain of edges along each crease. The enclosed volume
@@ -49,7 +50,8 @@ class Simplification {
   double way_off() const;
 
   // Curved triangles of one of these surfaces, by its result; see fit_curves.hpp.
-  FittedCurves curved(const SimplifyResult& result, const SurfaceMesh& surface, bool keep_corners = false) const;
+  FittedCurves curved(const SimplifyResult& result, const SurfaceMesh& surface, bool keep_corners = false,
+                      const Progress& progress = {}) const;
 
  private:
   struct State;
