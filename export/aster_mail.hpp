@@ -12,8 +12,8 @@ namespace scan2fea {
 // Throws IoError; an existing file is then untouched. Coordinates round-trip. O(n).
 Notes write_mail(const TetMesh& mesh, const std::filesystem::path& file, const FileOptions& options = {});
 
-// What write_mail calls the sets of a mesh; notes those that had to be changed.
-WrittenNames names_in_mail(const TetMesh& mesh, Notes& notes);
+// What write_mail calls the sets of a mesh, which have the prefix; notes those that had to be changed.
+WrittenNames names_in_mail(const TetMesh& mesh, const std::string& prefix, Notes& notes);
 
 // Reads tetrahedra, or else triangles, with their groups, whatever nodes and elements are called. Throws InvalidInput
 // naming file and line: unreadable, solid elements of another shape, orders mixed, truncated.

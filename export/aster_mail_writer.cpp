@@ -119,12 +119,12 @@ WrittenNames names_of_whole(const TetMesh& mesh, Notes& notes) {
 
 }  // namespace
 
-WrittenNames names_in_mail(const TetMesh& mesh, Notes& notes) {
+WrittenNames names_in_mail(const TetMesh& mesh, const std::string& prefix, Notes& notes) {
   TetMesh sets;  // the mesh itself is not needed
   sets.node_sets = mesh.node_sets;
   sets.face_sets = mesh.face_sets;
   sets.element_sets = mesh.element_sets;
-  return names_of_whole(with_whole_sets(sets, {}, notes), notes);
+  return names_of_whole(with_whole_sets(sets, prefix, notes), notes);
 }
 
 Notes write_mail(const TetMesh& given, const std::filesystem::path& file, const FileOptions& options) {

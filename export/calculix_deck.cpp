@@ -36,7 +36,8 @@ void write_other_elements(std::ostream& out, const DeckParts& parts) {
   out << "** the elements of no body\n*ELSET, ELSET=" << parts.other_name << "\n";
   constexpr std::size_t per_line = 10;
   for (std::size_t i = 0; i < parts.other.size(); ++i)
-    out << std::uint64_t{parts.other[i]} + 1 << (i + 1 == parts.other.size() || (i + 1) % per_line == 0 ? "\n" : ", ");
+    out << parts.numbers.element(parts.other[i])
+        << (i + 1 == parts.other.size() || (i + 1) % per_line == 0 ? "\n" : ", ");
 }
 
 void write_sections(std::ostream& out, const DeckParts& parts) {
@@ -45,7 +46,7 @@ void write_sections(std::ostream& out, const DeckParts& parts) {
     write_other_elements(out, parts);
     sets.push_back(parts.other_name);
   }
-  if (sets.empty()) sets.emplace_back("EALL");
+  if (sets.empty()) sets.push_back(parts.prefix + "EALL");
   if (sets.size() > 1) out << "** ASSUMED: all bodies are of it. For another, copy the block above and name it here.\n";
   for (const std::string& name : parts.no_bodies) out << "** " << name << " overlaps with a body: no section\n";
   for (const std::string& name : sets) out << "*SOLID SECTION, ELSET=" << name << ", MATERIAL=STEEL\n";
@@ -59,7 +60,8 @@ void write_load(std::ostream& out, const DeckParts& parts) {
   out << "*DSLOAD\n"
       << parts.loaded << ", P, " << deck_number(units.of_stress(deck_pressure)) << "\n"
       << "** Its weight, too, where the ** are taken away from these two lines: gravity and its direction\n"
-      << "** *DLOAD\n** EALL, GRAV, " << deck_number(units.of_acceleration(deck_gravity)) << ", 0., 0., -1.\n";
+      << "** *DLOAD\n** " << parts.prefix << "EALL, GRAV, " << deck_number(units.of_acceleration(deck_gravity))
+      << ", 0., 0., -1.\n";
 }
 
 }  // namespace

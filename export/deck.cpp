@@ -81,10 +81,15 @@ void find_bodies(const TetMesh& mesh, const WrittenNames& names, DeckParts& part
   if (!parts.bodies.empty()) parts.other = std::move(bodies.rest);
 }
 
-WrittenNames names_in(const TetMesh& mesh, const std::string& extension) {
+WrittenNames names_in(const TetMesh& mesh, const std::string& extension, const std::string& prefix) {
+  TetMesh prefixed;  // of which the sets alone are needed
+  prefixed.node_sets = mesh.node_sets;
+  prefixed.face_sets = mesh.face_sets;
+  prefixed.element_sets = mesh.element_sets;
+  put_prefix(prefix, prefixed);
   Notes notes;  // the mesh's writer tells them
-  if (extension == ".inp") return names_in_inp(mesh, {}, notes);
-  return extension == ".med" ? names_in_med(mesh, notes) : names_in_mail(mesh, notes);
+  if (extension == ".inp") return names_in_inp(prefixed, prefix, notes);
+  return extension == ".med" ? names_in_med(prefixed, prefix, notes) : names_in_mail(prefixed, prefix, notes);
 }
 
 std::string text_of(const Vec3& v) {
@@ -151,19 +156,22 @@ std::span<const std::string_view> sets_of_deck(DeckKind kind) {
   return std::span(needed).first(kind == DeckKind::modal ? 1 : 2);
 }
 
-std::string deck_text(const TetMesh& mesh, const std::filesystem::path& mesh_file, DeckKind kind) {
+std::string deck_text(const TetMesh& mesh, const std::filesystem::path& mesh_file, DeckKind kind,
+                      const FileOptions& options) {
   const std::string file = mesh_file.string(), extension = lower_case_extension(mesh_file);
-  const WrittenNames names = names_in(mesh, extension);
+  const WrittenNames names = names_in(mesh, extension, options.set_prefix);
   DeckParts parts{.mesh_file = mesh_file.filename().string(),
                   .kind = kind,
+                  .prefix = options.set_prefix,
+                  .numbers = options.numbers,
                   .units = units_of(mesh.unit, file),
                   .fixed = find_fixed(mesh, names, file),
-                  .fixed_nodes = free_name("FIXED_N", names.nodes),
+                  .fixed_nodes = free_name(options.set_prefix + "FIXED_N", names.nodes),
                   .loaded = {},
                   .bodies = {},
                   .no_bodies = {},
                   .other = {},
-                  .other_name = free_name("OTHER", names.elements)};
+                  .other_name = free_name(options.set_prefix + "OTHER", names.elements)};
   if (kind == DeckKind::static_analysis) {
     find_loaded(mesh, names, file, parts);
     count_shared_nodes(mesh, parts);

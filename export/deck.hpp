@@ -26,7 +26,9 @@ std::filesystem::path deck_file(const std::filesystem::path& mesh_file, DeckKind
 std::span<const std::string_view> sets_of_deck(DeckKind kind);
 
 // Throws WrongUsage where the mesh has no unit of length, or where a set that is needed is missing, empty, or of nodes
-// though it is pressed; and for what `deck_file` does. Sets of elements are bodies where they do not overlap.
-std::string deck_text(const TetMesh& mesh, const std::filesystem::path& mesh_file, DeckKind kind);
+// though it is pressed; and for what `deck_file` does. `options`: those of the
+// mesh's file, for the prefix of its sets and its numbers. Sets of elements are bodies where they do not overlap.
+std::string deck_text(const TetMesh& mesh, const std::filesystem::path& mesh_file, DeckKind kind,
+                      const FileOptions& options = {});
 
 }  // namespace scan2fea

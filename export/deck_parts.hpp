@@ -32,6 +32,8 @@ struct DeckSet {
 struct DeckParts {
   std::string mesh_file;  // without its folder
   DeckKind kind;
+  std::string prefix;  // of all sets
+  Numbering numbers;
   DeckUnits units;
   DeckSet fixed;
   std::string fixed_nodes;  // a name for the nodes of `fixed` that no other set of nodes has

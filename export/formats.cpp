@@ -8,6 +8,7 @@
 #include "export/inp.hpp"
 #include "export/med.hpp"
 #include "export/msh.hpp"
+#include "export/set_names.hpp"
 #include "export/su2.hpp"
 #include "export/surface_files.hpp"
 #include "export/threemf.hpp"
@@ -143,14 +144,6 @@ void check_numbers(const FileFormat& format, const Holdings& holds, std::size_t 
                       .value = std::to_string(last),
                       .limit = std::to_string(holds.largest_number),
                       .advice = "smaller --first-node, --first-element"});
-}
-
-template <class Mesh>
-void put_prefix(const std::string& prefix, Mesh& mesh) {
-  for (auto* sets : {&mesh.node_sets, &mesh.face_sets})
-    for (NamedSet& set : *sets) set.name.insert(0, prefix);
-  if constexpr (requires { mesh.element_sets; })
-    for (NamedSet& set : mesh.element_sets) set.name.insert(0, prefix);
 }
 
 TetMesh without_mid_edge_nodes(const TetMesh& mesh) {

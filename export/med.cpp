@@ -98,12 +98,12 @@ void add_cells(const MedCells& cells, RawMesh& raw) {
 
 }  // namespace
 
-WrittenNames names_in_med(const TetMesh& mesh, Notes& notes) {
+WrittenNames names_in_med(const TetMesh& mesh, const std::string& prefix, Notes& notes) {
   TetMesh sets;  // the mesh itself is not needed
   sets.node_sets = mesh.node_sets;
   sets.face_sets = mesh.face_sets;
   sets.element_sets = mesh.element_sets;
-  const TetMesh whole = with_whole_sets(sets, {}, notes);
+  const TetMesh whole = with_whole_sets(sets, prefix, notes);
   return {.nodes = names_for(whole.node_sets, rules, {}, notes),
           .faces = names_for(whole.face_sets, rules, {}, notes),
           .elements = names_for(whole.element_sets, rules, {}, notes)};

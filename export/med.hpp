@@ -17,8 +17,8 @@ namespace scan2fea {
 Notes write_med(const TetMesh& mesh, const std::filesystem::path& file, const FileOptions& options = {});
 Notes write_med(const NamedSurface& surface, const std::filesystem::path& file, const FileOptions& options = {});
 
-// What write_med calls the sets of a mesh; notes those that had to be changed.
-WrittenNames names_in_med(const TetMesh& mesh, Notes& notes);
+// What write_med calls the sets of a mesh, which have the prefix; notes those that had to be changed.
+WrittenNames names_in_med(const TetMesh& mesh, const std::string& prefix, Notes& notes);
 
 // Reads the first mesh of the file. Throws InvalidInput naming the file: unreadable, not MED, no elements, other solids
 // than tetrahedra, orders mixed.

@@ -58,6 +58,16 @@ std::vector<std::string> names_for(std::span<const NamedSet> sets, const NameRul
   return names;
 }
 
+void put_prefix(const std::string& prefix, TetMesh& mesh) {
+  for (auto* sets : {&mesh.node_sets, &mesh.face_sets, &mesh.element_sets})
+    for (NamedSet& set : *sets) set.name.insert(0, prefix);
+}
+
+void put_prefix(const std::string& prefix, NamedSurface& surface) {
+  for (auto* sets : {&surface.node_sets, &surface.face_sets})
+    for (NamedSet& set : *sets) set.name.insert(0, prefix);
+}
+
 std::vector<std::string> taken_with_prefix(const std::string& prefix) {
   std::vector<std::string> names;
   if (!prefix.empty())

@@ -29,6 +29,10 @@ struct NameRules {
 // names. Sets of these names are renamed, which is noted.
 TetMesh with_whole_sets(const TetMesh& mesh, const std::string& prefix, std::vector<std::string>& notes);
 
+// Before the names of all sets.
+void put_prefix(const std::string& prefix, TetMesh& mesh);
+void put_prefix(const std::string& prefix, NamedSurface& surface);
+
 // The names of the sets that all files have, as INP has them, with a prefix before them: not for others.
 std::vector<std::string> taken_with_prefix(const std::string& prefix);
 

@@ -67,7 +67,8 @@ Vec3 FlatPieces::on_curve(std::uint32_t piece, double first, double second) cons
 FlatPieces flat_pieces(const TetMesh& mesh, double tolerance) {
   FlatPieces pieces;
   pieces.nodes = mesh.nodes;
-  for (const BoundaryFace f : mesh.boundary) {
+  for (std::size_t i = 0; i < mesh.outer_faces(); ++i) {
+    const BoundaryFace f = mesh.boundary[i];
     const Triangle corners = boundary_triangle(mesh, f), middles = boundary_mid_edge_nodes(mesh, f);
     pieces.curved.push_back({{corners[0], corners[1], corners[2], middles[0], middles[1], middles[2]}});
     add_pieces(pieces, static_cast<std::uint32_t>(pieces.curved.size() - 1), tolerance);

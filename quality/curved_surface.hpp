@@ -18,7 +18,7 @@ struct CurvedTriangle {
 // neighbours are cut differently, there are gaps of less than the tolerance.
 struct FlatPieces {
   SurfaceMesh mesh;
-  std::vector<CurvedTriangle> curved;                  // in the order of TetMesh::boundary
+  std::vector<CurvedTriangle> curved;                  // in the order of TetMesh::boundary, without those between
   std::vector<Vec3> nodes;                             // of the whole mesh
   std::vector<std::uint32_t> of_piece;                 // per flat triangle the curved one
   std::vector<std::array<Eigen::Vector2d, 3>> places;  // and its corners there: second and third coordinate

@@ -101,6 +101,23 @@ TEST(Deck, HasASectionForEachBody) {
   EXPECT_THAT(deck_text(mesh, "part.inp", static_analysis), HasSubstr("*SOLID SECTION, ELSET=EALL, MATERIAL=STEEL"));
 }
 
+// So that two parts go into one deck: names and numbers are those that the mesh's file has.
+TEST(Deck, HasThePrefixAndTheNumbersOfTheMesh) {
+  TetMesh mesh = analytic::part_with_sets(1);
+  FileOptions options;
+  options.set_prefix = "PIN_";
+  options.numbers = {.first_node = 1000, .first_element = 5000};
+  const std::string inp = deck_text(mesh, "part.inp", static_analysis, options);
+  EXPECT_THAT(inp, HasSubstr("PIN_FIXED_NODES, 1, 3"));
+  EXPECT_THAT(inp, HasSubstr("*DSLOAD\nPIN_LOADED, P"));
+  EXPECT_THAT(inp, HasSubstr("*SOLID SECTION, ELSET=PIN_BRACKET"));
+  EXPECT_THAT(deck_text(mesh, "part.med", static_analysis, options), HasSubstr("GROUP_MA=\"PIN_LOADED\", PRES"));
+  mesh.element_sets = {named_set("HALF", {0, 1})};
+  EXPECT_THAT(deck_text(mesh, "part.inp", static_analysis, options), HasSubstr("ELSET=PIN_OTHER\n5002, 5003"));
+  mesh.element_sets.clear();
+  EXPECT_THAT(deck_text(mesh, "part.inp", static_analysis, options), HasSubstr("ELSET=PIN_EALL, MATERIAL"));
+}
+
 TEST(Deck, NeedsItsSets) {
   TetMesh mesh = analytic::part_with_sets(1);
   mesh.face_sets.pop_back();

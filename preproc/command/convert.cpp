@@ -102,7 +102,7 @@ int convert(const ConvertFlags& flags) {
     StagedOutputs deck;
     if (flags.deck) {
       require_deck(mesh, flags);
-      deck.add(files[1].file, deck_text(mesh, flags.output, *flags.deck));
+      deck.add(files[1].file, deck_text(mesh, flags.output, *flags.deck, options));
     }
     tell(write_volume(mesh, flags.output, options));
     deck.commit();

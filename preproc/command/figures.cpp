@@ -124,8 +124,8 @@ Json measure(const Subject& subject, const CommonFlags& flags) {
   if (subject.surface != nullptr) report.surface = measure_surface(*subject.surface);
   if (subject.surface != nullptr && is_curved) {
     report.surface->area = 0;
-    for (const BoundaryFace f : subject.volume_mesh->boundary)
-      report.surface->area += face_area(*subject.volume_mesh, f);
+    for (std::size_t f = 0; f < subject.volume_mesh->outer_faces(); ++f)
+      report.surface->area += face_area(*subject.volume_mesh, subject.volume_mesh->boundary[f]);
     if (report.surface->volume) report.surface->volume = total_volume(*subject.volume_mesh);
   }
   if (subject.surface != nullptr && subject.reference != nullptr) {

@@ -206,14 +206,18 @@ void require_writable_outputs(const MakeMeshJob& job) {
   require_writable(outputs, inputs, job.common.force);
 }
 
-Notes write_result(PipelineResult& result, const MakeMeshJob& job) {
-  const std::string unit = job.common.unit.value_or("");
+FileOptions file_options(const MakeMeshJob& job) {
   FileOptions options;
   options.provenance = job.common.input.filename().string();
   for (const std::filesystem::path& body : job.more_bodies) options.provenance += ", " + body.filename().string();
   options.msh_version = job.msh_version;
   options.set_prefix = job.numbering.set_prefix;
   options.numbers = job.numbering.numbers;
+  return options;
+}
+
+Notes write_result(PipelineResult& result, FileOptions options, const MakeMeshJob& job) {
+  const std::string unit = job.common.unit.value_or("");
   if (result.volume_mesh) {
     if (find_format(job.output)->volume->element_fields) options.fields = element_fields(*result.volume_mesh);
     return write_volume(*result.volume_mesh, job.output, options);
@@ -295,13 +299,14 @@ int make_mesh(MakeMeshJob job) {
     }
   }
   if (result.volume_mesh) result.volume_mesh->unit = job.common.unit.value_or("");
+  const FileOptions options = file_options(job);
   if (job.deck) {
     const std::filesystem::path file = deck_file(job.output, *job.deck);
-    outputs.add(file, deck_text(*result.volume_mesh, job.output, *job.deck));
+    outputs.add(file, deck_text(*result.volume_mesh, job.output, *job.deck, options));
     display.line("a deck: " + file.string());
   }
   if (job.features.write) outputs.add(*job.features.write, text_of(result.features));
-  for (const std::string& note : write_result(result, job)) display.line("warning: " + note);
+  for (const std::string& note : write_result(result, options, job)) display.line("warning: " + note);
   outputs.commit();
   ends_by_itself_now();
   return 0;
