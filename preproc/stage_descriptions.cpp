@@ -67,6 +67,7 @@ void describe(const ReconstructResult& result, StageRecord& record) {
                     {"largest_distance_of_points", result.distances.largest},
                     {"rms_distance_of_points", result.distances.rms}};
   record.remarks.push_back(result.choice);
+  record.remarks.insert(record.remarks.end(), result.views.begin(), result.views.end());
   if (result.thinned > 0)
     record.remarks.push_back("of the points one in each cell of " + rounded(result.cell) + " was taken");
   if (result.distances.largest > 0)

@@ -69,6 +69,22 @@ KeptBodies parse_bodies(const std::string& text) {
   return BodiesAbove{length};
 }
 
+// An option of `numbers` numbers that may be given several times: in a row where a file gives them.
+CLI::Option* add_repeated(CLI::App& command, const char* name, int numbers, const char* type, const char* help,
+                          const std::function<void(const double*)>& take) {
+  return command
+      .add_option_function<std::vector<double>>(
+          name,
+          [take, numbers](const std::vector<double>& values) {
+            for (std::size_t i = 0; i < values.size(); i += static_cast<std::size_t>(numbers)) take(values.data() + i);
+          },
+          help)
+      ->type_size(numbers)
+      ->expected(1, CLI::detail::expected_max_vector_size)
+      ->allow_extra_args(false)
+      ->type_name(type);
+}
+
 }  // namespace
 
 RelativeLength parse_length(const std::string& flag, const std::string& text, char suffix) {
@@ -176,6 +192,10 @@ void add_reconstruct_flags(CLI::App& command, ReconstructOptions& options) {
                   "Thin a cloud to at most so many points; the default is 100000, or twice --faces")
       ->check(CLI::Range(std::size_t{1000}, std::size_t{100'000'000}))
       ->type_name("N");
+  add_repeated(command, "--scanner", 3, "X Y Z",
+               "Where the scanner stood, whatever the cloud tells; may be given several times",
+               [&options](const double* v) { options.scanners.emplace_back(v[0], v[1], v[2]); })
+      ->delimiter(',');
 }
 
 void add_repair_flags(CLI::App& command, RepairOptions& options) {
@@ -262,22 +282,6 @@ void add_enrich_flags(CLI::App& command, EnrichOptions& options, std::string& do
 }
 
 namespace {
-
-// An option of `numbers` numbers that may be given several times: in a row where a file gives them.
-void add_repeated(CLI::App& command, const char* name, int numbers, const char* type, const char* help,
-                  const std::function<void(const double*)>& take) {
-  command
-      .add_option_function<std::vector<double>>(
-          name,
-          [take, numbers](const std::vector<double>& values) {
-            for (std::size_t i = 0; i < values.size(); i += static_cast<std::size_t>(numbers)) take(values.data() + i);
-          },
-          help)
-      ->type_size(numbers)
-      ->expected(1, CLI::detail::expected_max_vector_size)
-      ->allow_extra_args(false)
-      ->type_name(type);
-}
 
 void add_size_limit_flags(CLI::App& command, SizeLimits& limits) {
   add_repeated(

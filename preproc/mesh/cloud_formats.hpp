@@ -10,7 +10,9 @@ namespace scan2fea {
 
 // Rows of numbers, parted by blanks, tabs, commas or semicolons: x y z, then whatever else. Lines of `#`, `//`, `%` or
 // `!` are comments; a first line of words names the columns; a line of one whole number promises so many points, as in
-// PTS. Without names, columns are normals where they are of unit length all along. Decimal commas are refused.
+// PTS. Without names, columns are normals where they are of unit length all along; with names nx, ny, nz (normal_x, ...)
+// are, and scanner_x, scanner_y, scanner_z (viewpoint_x, vp_x, ...) are the scanner of each point. A comment
+// `# scanner x y z` is that of the points that follow. Decimal commas are refused.
 PointCloud read_point_rows(const InputFile& file);
 
 // Leica's PTX: scans one after the other, each a grid with the scanner's place and how to turn and move its points.

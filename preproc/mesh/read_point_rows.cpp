@@ -96,13 +96,14 @@ constexpr std::size_t most_columns = 16;
 using Row = std::array<double, most_columns>;
 struct Columns {
   std::array<std::size_t, 3> place{0, 1, 2};
-  std::optional<std::array<std::size_t, 3>> normal;
+  std::optional<std::array<std::size_t, 3>> normal, scanner;
   bool named = false;
 };
 
-// "x", "//X", "Points:0", "nx", "Normal_X", "X [mm]": which axis of a place or of a normal is meant.
+// "x", "//X", "Points:0", "nx", "Normal_X", "X [mm]", "scanner_x": which axis of what is meant.
+enum class Vector : char { place, normal, scanner };
 struct Meaning {
-  bool is_normal = false;
+  Vector of;
   std::size_t axis = 0;
 };
 std::optional<Meaning> meaning(std::string_view word) {
@@ -114,8 +115,11 @@ std::optional<Meaning> meaning(std::string_view word) {
       name += static_cast<char>(c - 'A' + 'a');
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::string letter(1, static_cast<char>('x' + axis)), digit(1, static_cast<char>('0' + axis));
-    if (name == letter || name == "points" + digit || name == "coord" + letter) return Meaning{false, axis};
-    if (name == "n" + letter || name == "normal" + letter || name == "normals" + digit) return Meaning{true, axis};
+    if (name == letter || name == "points" + digit || name == "coord" + letter) return Meaning{Vector::place, axis};
+    if (name == "n" + letter || name == "normal" + letter || name == "normals" + digit)
+      return Meaning{Vector::normal, axis};
+    if (name == "scanner" + letter || name == "viewpoint" + letter || name == "vp" + letter)
+      return Meaning{Vector::scanner, axis};
   }
   return std::nullopt;
 }
@@ -129,7 +133,7 @@ class RowReader {
     while (lines_.next(line)) {
       if (!is_comment(line))
         take(line);
-      else if (cloud_.points.empty() && !columns_.named)
+      else if (!take_scanner(line) && cloud_.points.empty() && !columns_.named)
         take_names(line, true);
     }
     end_block(file_.bytes().data() + file_.bytes().size());
@@ -163,9 +167,27 @@ class RowReader {
     cloud_.points.emplace_back(row[columns_.place[0]], row[columns_.place[1]], row[columns_.place[2]]);
     if (cloud_.points.size() == 1) width_ = std::min(column, most_columns);
     for (std::size_t k = 3; k < width_ && !columns_.named; ++k) others_.push_back(static_cast<float>(row[k]));
-    if (columns_.named && columns_.normal)
-      cloud_.normals.push_back(
-          direction({row[(*columns_.normal)[0]], row[(*columns_.normal)[1]], row[(*columns_.normal)[2]]}));
+    const auto vector = [&](const std::array<std::size_t, 3>& at) { return Vec3(row[at[0]], row[at[1]], row[at[2]]); };
+    if (columns_.named && columns_.normal) cloud_.normals.push_back(direction(vector(*columns_.normal)));
+    if (!columns_.scanner && !scanner_) return;
+    cloud_.scanners.resize(cloud_.points.size() - 1, Vec3::Constant(no_number));
+    cloud_.scanners.push_back(columns_.scanner ? vector(*columns_.scanner) : *scanner_);
+  }
+
+  // "# scanner x y z": of the points that follow.
+  bool take_scanner(std::string_view line) {
+    line.remove_prefix(std::min(line.find_first_not_of("#/%! \t"), line.size()));
+    constexpr std::string_view name = "scanner";
+    if (!line.starts_with(name)) return false;
+    line.remove_prefix(std::min(line.find_first_not_of(": \t", name.size()), line.size()));
+    std::vector<double> values;
+    for_each_word(line, separator_of(line), [&](std::string_view word) {
+      values.push_back(number(word).value_or(no_number));
+      return true;
+    });
+    if (values.size() != 3 || !std::ranges::all_of(values, [](double v) { return std::isfinite(v); })) return false;
+    scanner_ = Vec3(values[0], values[1], values[2]);
+    return true;
   }
 
   bool is_place(std::size_t column) const { return std::ranges::find(columns_.place, column) != columns_.place.end(); }
@@ -206,22 +228,28 @@ class RowReader {
   // Of a first line whose words are no numbers, or of a comment. What names no axis is a title.
   bool take_names(std::string_view line, bool is_comment) {
     line.remove_prefix(is_comment ? std::min(line.find_first_not_of("#/%! \t"), line.size()) : 0);
-    std::size_t column = 0, names = 0, places = 0, normals = 0;
-    std::array<std::size_t, 3> place{}, normal{};
+    std::size_t column = 0, names = 0;
+    std::array<std::size_t, 3> count{};
+    std::array<std::array<std::size_t, 3>, 3> at{};
     for_each_word(line, separator_of(line), [&](std::string_view word) {
       names += column < 3 && !word.empty() && !number(word) && is_letter(word.front());
       if (const auto what = meaning(word)) {
-        (what->is_normal ? normal : place)[what->axis] = column;
-        ++(what->is_normal ? normals : places);
+        const auto of = static_cast<std::size_t>(what->of);
+        at[of][what->axis] = column;
+        ++count[of];
       }
       return ++column < most_columns;
     });
+    const std::size_t places = count[0];
     if (is_comment ? places != 3 : names == 0 || names < std::min<std::size_t>(3, column)) return false;
     if (places != 0 && places != 3)
       file_.fail_at_line(line.data(), "the header names no columns x, y and z, once each", quotation(line));
     (places == 3 ? columns_.named : titled_) = true;
-    if (places == 3) columns_.place = place;
-    if (places == 3 && normals == 3) columns_.normal = normal;
+    if (places == 3) {
+      columns_.place = at[0];
+      if (count[1] == 3) columns_.normal = at[1];
+      if (count[2] == 3) columns_.scanner = at[2];
+    }
     separator_ = '\0';  // the rows tell theirs
     return true;
   }
@@ -270,8 +298,9 @@ class RowReader {
   bool titled_ = false;
   char separator_ = '\0';  // not known yet
   std::optional<std::size_t> promised_;
-  std::size_t width_ = 0;      // columns of the first row
-  std::vector<float> others_;  // of each row, the columns behind the place: enough to tell normals by
+  std::optional<Vec3> scanner_;  // that a comment told
+  std::size_t width_ = 0;        // columns of the first row
+  std::vector<float> others_;    // of each row, the columns behind the place: enough to tell normals by
 };
 
 }  // namespace

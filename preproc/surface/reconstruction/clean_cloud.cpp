@@ -19,12 +19,6 @@
 namespace scan2fea {
 namespace {
 
-std::vector<Vec3> without_repeated(const std::vector<Vec3>& points) {
-  VertexWelder welder(points.size());
-  for (const Vec3& p : points) welder.add(p);
-  return welder.take_vertices();
-}
-
 // That they are no cloud about a solid, by the extents along their principal axes.
 void require_extents(const std::vector<Vec3>& points) {
   constexpr std::size_t fewest = 4;
@@ -60,8 +54,9 @@ void require_extents(const std::vector<Vec3>& points) {
 
 class Cleaning {
  public:
-  Cleaning(const std::vector<Vec3>& given, std::size_t most) : points_(without_repeated(given)), most_(most) {
-    result_.repeated = given.size() - points_.size();
+  Cleaning(const std::vector<Vec3>& given, const std::vector<Vec3>& outwards, std::size_t most)
+      : given_outwards_(outwards), most_(most) {
+    drop_repeated(given);
     require_extents(points_);
   }
 
@@ -75,12 +70,16 @@ class Cleaning {
     merge();
     require_extents(points_);
     result_.points = std::move(points_);
+    result_.from = std::move(from_);
     return std::move(result_);
   }
 
  private:
   enum class Fate : char { stays, goes, outlier };
 
+  void drop_repeated(const std::vector<Vec3>& given);
+  std::vector<Vec3> outwards() const;
+  void take(MergedPoints&& merged);
   void thin();
   void drop_thin_cells(const ThinnedCloud& thinned);
   void smooth();
@@ -88,11 +87,28 @@ class Cleaning {
   void merge();
   void apply(const std::vector<Fate>& fate);
 
+  const std::vector<Vec3>& given_outwards_;
   std::vector<Vec3> points_;
+  std::vector<std::uint32_t> from_;  // which of the given ones they are
   std::size_t most_;
   std::vector<std::vector<Vec3>> stand_for_;  // of each point those of its cell that went; none where none did
   CleanedCloud result_;
 };
+
+void Cleaning::drop_repeated(const std::vector<Vec3>& given) {
+  VertexWelder welder(given.size());
+  for (std::uint32_t i = 0; i < given.size(); ++i)
+    if (welder.add(given[i]) == from_.size()) from_.push_back(i);
+  points_ = welder.take_vertices();
+  result_.repeated = given.size() - points_.size();
+}
+
+std::vector<Vec3> Cleaning::outwards() const {
+  std::vector<Vec3> directions;
+  if (!given_outwards_.empty())
+    for (const std::uint32_t i : from_) directions.push_back(given_outwards_[i]);
+  return directions;
+}
 
 // Points that go take those with them that they stand for.
 void Cleaning::apply(const std::vector<Fate>& fate) {
@@ -108,10 +124,12 @@ void Cleaning::apply(const std::vector<Fate>& fate) {
     if (fate[i] == Fate::goes) ++result_.thinned;
     if (fate[i] != Fate::stays) continue;
     points_[kept] = points_[i];
+    from_[kept] = from_[i];
     if (!stand_for_.empty()) std::swap(stand_for_[kept], stand_for_[i]);
     ++kept;
   }
   points_.resize(kept);
+  from_.resize(kept);
   if (!stand_for_.empty()) stand_for_.resize(kept);
 }
 
@@ -119,8 +137,10 @@ void Cleaning::thin() {
   const ThinnedCloud thinned = thin_by_cells(points_, most_);
   if (thinned.cell == 0) return;
   std::vector<Vec3> kept;
+  std::vector<std::uint32_t> from;
   for (std::size_t c = 0; c < thinned.kept.size(); ++c) {
     kept.push_back(points_[thinned.kept[c]]);
+    from.push_back(from_[thinned.kept[c]]);
     std::vector<Vec3>& others = stand_for_.emplace_back();
     for (std::size_t m = thinned.first[c]; m < thinned.first[c + 1]; ++m)
       if (thinned.members[m] != thinned.kept[c]) others.push_back(points_[thinned.members[m]]);
@@ -128,6 +148,7 @@ void Cleaning::thin() {
   result_.cell = thinned.cell;
   result_.thinned = points_.size() - kept.size();
   points_ = std::move(kept);
+  from_ = std::move(from);
   constexpr std::size_t telling = 8;  // points in a cell, mean
   if (result_.thinned / points_.size() >= telling) drop_thin_cells(thinned);
 }
@@ -159,24 +180,30 @@ void Cleaning::drop_thin_cells(const ThinnedCloud& thinned) {
   apply(fate);
 }
 
+void Cleaning::take(MergedPoints&& merged) {
+  result_.merged += points_.size() - merged.points.size();
+  for (std::uint32_t& i : merged.stayed) i = from_[i];
+  from_ = std::move(merged.stayed);
+  points_ = std::move(merged.points);
+}
+
 // Where noise is larger than the spacing, a cloud is thick instead of a surface: points within its thickness become
 // their mean, until it is thin for its spacing.
 void Cleaning::smooth() {
   constexpr double thick = 0.15;
   for (int round = 0; round < 5; ++round) {
-    const Roughness rough = measure_roughness(points_);
+    const Roughness rough = measure_roughness(points_, outwards());
     if (rough.relative < thick) return;
-    std::vector<Vec3> merged = merge_near(points_, rough.reach, MergeTo::mean);
+    MergedPoints merged = merge_near(points_, outwards(), rough.reach, MergeTo::mean);
     constexpr std::size_t fewest = 200;  // of which a surface can be made at all
-    if (merged.size() < fewest) return;
-    result_.merged += points_.size() - merged.size();
-    points_ = std::move(merged);
+    if (merged.points.size() < fewest) return;
+    take(std::move(merged));
     stand_for_.clear();
   }
 }
 
 void Cleaning::drop_outliers() {
-  const OutlierSearch search = find_outliers(points_);
+  const OutlierSearch search = find_outliers(points_, outwards());
   result_.noise = search.noise;
   result_.has_outliers = search.has_outliers;
   std::vector<Fate> fate(points_.size(), Fate::stays);
@@ -193,15 +220,14 @@ void Cleaning::merge() {
   const double noise = of_noise * result_.noise;
   const double radius = spacing < noise ? noise : std::min(noise, of_spacing * spacing);
   if (radius == 0) return;
-  std::vector<Vec3> merged = merge_near(points_, radius, MergeTo::plane);
-  result_.merged += points_.size() - merged.size();
-  points_ = std::move(merged);
+  take(merge_near(points_, outwards(), radius, MergeTo::plane));
 }
 
 }  // namespace
 
-CleanedCloud clean_cloud(const std::vector<Vec3>& points, std::size_t most, const Progress& progress) {
-  return Cleaning(points, most).run(progress);
+CleanedCloud clean_cloud(const std::vector<Vec3>& points, const std::vector<Vec3>& outwards, std::size_t most,
+                         const Progress& progress) {
+  return Cleaning(points, outwards, most).run(progress);
 }
 
 }  // namespace scan2fea

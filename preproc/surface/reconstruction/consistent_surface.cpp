@@ -54,12 +54,14 @@ struct Candidate {
 
 class Search {
  public:
-  Search(const std::vector<Vec3>& points, const std::vector<double>& spacing, const Progress& progress)
-      : points_(points), spacing_(spacing), progress_(progress) {}
+  Search(const std::vector<Vec3>& points, const std::vector<double>& spacing, const PointViews& views,
+         const Progress& progress)
+      : points_(points), spacing_(spacing), views_(views), progress_(progress) {}
 
   // Instead of fronts, a surface through most of the points.
   ConsistentSurface run_again(const ConsistentSurface& before) {
     cells_ = Delaunay(points_, spacing_).cells();
+    look();
     for (std::size_t i = 0; i < before.triangles.size(); ++i)
       if (!before.is_made_up[i]) supported_.insert(sorted(before.triangles[i]));
     fronts_.push_back(wind(points_, cells_, before.triangles));
@@ -71,6 +73,7 @@ class Search {
 
   ConsistentSurface run() {
     make_fronts();
+    look();
     std::vector<const WoundSurface*> all;
     for (const WoundSurface& front : fronts_) all.push_back(&front);
     add_candidate("what advancing fronts agree on", all);
@@ -105,7 +108,7 @@ class Search {
                      .fronts = best.fronts,
                      .is_shaped = true};
     shaped.surface.triangles =
-        cut_surface(points_, spacing_, cells_, best.fronts, sides_by_shapes(points_, cells_, shapes_));
+        cut_surface(points_, spacing_, cells_, best.fronts, sides_by_shapes(points_, cells_, shapes_), seen_);
     if (shaped.surface.triangles.empty()) return;
     measure(shaped.surface);
     // Where shapes meet in edges, a fault or two may come in with what they mend.
@@ -114,6 +117,10 @@ class Search {
       return;
     candidates_.clear();
     candidates_.push_back(std::move(shaped));
+  }
+
+  void look() {
+    if (!views_.is_empty()) seen_ = see_cells(points_, spacing_, cells_, views_);
   }
 
   void make_fronts() {
@@ -133,7 +140,7 @@ class Search {
 
   void add_candidate(std::string name, const std::vector<const WoundSurface*>& fronts) {
     Candidate candidate{.surface = {}, .name = std::move(name), .fronts = fronts};
-    candidate.surface.triangles = cut_surface(points_, spacing_, cells_, fronts);
+    candidate.surface.triangles = cut_surface(points_, spacing_, cells_, fronts, {}, seen_);
     progress_("reconstruction", 0.75 + 0.05 * static_cast<double>(candidates_.size()));
     if (candidate.surface.triangles.empty()) return;
     measure(candidate.surface);
@@ -149,7 +156,7 @@ class Search {
     for (const WoundSurface& front : fronts_) all.push_back(&front);
     for (const auto& fronts : {best.fronts, all}) {
       Candidate joined{.surface = {}, .name = best.name + " with its pieces joined", .fronts = fronts};
-      joined.surface.triangles = join_pieces(points_, spacing_, cells_, fronts, best.surface.triangles, longest);
+      joined.surface.triangles = join_pieces(points_, spacing_, cells_, fronts, best.surface.triangles, longest, seen_);
       if (joined.surface.triangles.empty()) continue;
       measure(joined.surface);
       candidates_.push_back(std::move(joined));
@@ -184,18 +191,28 @@ class Search {
       best->surface.choice += "; the best of " + std::to_string(candidates_.size());
       if (worst->faults() > best->faults()) best->surface.choice += ", the worst with " + text(worst->surface);
     }
-    // Shapes say more than fronts; but across a gap they say nothing.
+    // Shapes and normals say more than fronts; but across a gap they say nothing.
     for (const Triangle& t : best->surface.triangles)
       best->surface.is_made_up.push_back(
           !supported_.contains(sorted(t)) &&
-          (!best->is_shaped || length_in_spacings(points_, spacing_, t) > long_for_spacing));
+          ((!best->is_shaped && !is_seen(t)) || length_in_spacings(points_, spacing_, t) > long_for_spacing));
     best->surface.shapes = std::move(shapes_);
     return std::move(best->surface);
   }
 
+  // By the normals of its corners: the cap of a gap turns from those of the gap's rim.
+  bool is_seen(const Triangle& t) const {
+    constexpr double least = 0.3;  // cosine: a bevel of an edge has 0.7, or 0.6 in a corner
+    if (views_.normals.empty()) return false;
+    const Vec3 n = (points_[t[1]] - points_[t[0]]).cross(points_[t[2]] - points_[t[0]]).normalized();
+    return std::ranges::all_of(t, [&](std::uint32_t v) { return views_.normals[v].dot(n) > least; });
+  }
+
   const std::vector<Vec3>& points_;
   const std::vector<double>& spacing_;
+  const PointViews& views_;
   const Progress& progress_;
+  SeenCells seen_;
   std::vector<double> betas_;
   DelaunayCells cells_;
   std::vector<WoundSurface> fronts_;
@@ -216,13 +233,13 @@ double length_in_spacings(const std::vector<Vec3>& points, const std::vector<dou
 }
 
 ConsistentSurface renew_surface(const std::vector<Vec3>& points, const std::vector<double>& spacing,
-                                const ConsistentSurface& before, const Progress& progress) {
-  return Search(points, spacing, progress).run_again(before);
+                                const ConsistentSurface& before, const PointViews& views, const Progress& progress) {
+  return Search(points, spacing, views, progress).run_again(before);
 }
 
 ConsistentSurface find_consistent_surface(const std::vector<Vec3>& points, const std::vector<double>& spacing,
-                                          const Progress& progress) {
-  return Search(points, spacing, progress).run();
+                                          const PointViews& views, const Progress& progress) {
+  return Search(points, spacing, views, progress).run();
 }
 
 }  // namespace scan2fea

@@ -4,6 +4,7 @@
 #include "preproc/mesh/progress.hpp"
 #include "preproc/mesh/surface_mesh.hpp"
 #include "preproc/surface/primitives/find_primitives.hpp"
+#include "preproc/surface/reconstruction/seen_cells.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -36,11 +37,11 @@ double length_in_spacings(const std::vector<Vec3>& points, const std::vector<dou
 // wrong then: a hole of which few points are known is empty, and walls stand where faces say so. Throws NotMeshable
 // where there is none. About 200 us a point; parallel in part, the same for any number of threads.
 ConsistentSurface find_consistent_surface(const std::vector<Vec3>& points, const std::vector<double>& spacing,
-                                          const Progress& progress);
+                                          const PointViews& views, const Progress& progress);
 
 // The same by one cut, from a surface through most of these points, where some have gone or come since. Empty where
 // nothing is inside. About 40 us a point.
 ConsistentSurface renew_surface(const std::vector<Vec3>& points, const std::vector<double>& spacing,
-                                const ConsistentSurface& before, const Progress& progress);
+                                const ConsistentSurface& before, const PointViews& views, const Progress& progress);
 
 }  // namespace scan2fea

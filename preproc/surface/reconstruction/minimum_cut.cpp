@@ -57,8 +57,13 @@ struct Edge {
 class Cut {
  public:
   Cut(const std::vector<Vec3>& points, const std::vector<double>& spacing, const DelaunayCells& cells,
-      const std::vector<const WoundSurface*>& surfaces)
-      : points_(points), spacing_(spacing), cells_(cells), winding_(cells.corners.size(), 0.0), gain_(winding_) {
+      const std::vector<const WoundSurface*>& surfaces, const SeenCells& seen)
+      : points_(points),
+        spacing_(spacing),
+        cells_(cells),
+        seen_(seen),
+        winding_(cells.corners.size(), 0.0),
+        gain_(winding_) {
     const double share = 1 / static_cast<double>(surfaces.size());
     for (const WoundSurface* surface : surfaces) {
       for (const Triangle& t : surface->triangles) votes_[sorted(t)] += share;
@@ -129,6 +134,13 @@ class Cut {
     return std::clamp(2 * (winding_[cell] - winding_[other]), -1.0, 1.0);
   }
 
+  double crossed(std::uint32_t cell, std::size_t k) const { return seen_.crossed.empty() ? 0 : seen_.crossed[cell][k]; }
+
+  std::size_t corner_across(std::uint32_t cell, std::uint32_t other) const {
+    const auto& neighbours = cells_.neighbours[cell];
+    return static_cast<std::size_t>(std::ranges::find(neighbours, other) - neighbours.begin());
+  }
+
   double area_of(const Triangle& t) const {
     return 0.5 * (points_[t[1]] - points_[t[0]]).cross(points_[t[2]] - points_[t[0]]).norm();
   }
@@ -157,8 +169,9 @@ class Cut {
       gain_[cell] += area * votes * step;
       gain_[other] -= area * votes * step;
       const double price = area * cost(t);
-      edges_.push_back({cell, other, price * (1 - votes * std::max(step, 0.0))});
-      edges_.push_back({other, cell, price * (1 - votes * std::max(-step, 0.0))});
+      edges_.push_back({cell, other, price * (1 - votes * std::max(step, 0.0)) + crossed(cell, k)});
+      edges_.push_back(
+          {other, cell, price * (1 - votes * std::max(-step, 0.0)) + crossed(other, corner_across(other, cell))});
     });
   }
 
@@ -171,6 +184,7 @@ class Cut {
   const std::vector<Vec3>& points_;
   const std::vector<double>& spacing_;
   const DelaunayCells& cells_;
+  const SeenCells& seen_;
   std::unordered_map<Triangle, double, Hash> votes_;  // the share of the surfaces that have it
   std::vector<double> winding_;                       // about each cell's centre, mean of the surfaces, either way
   std::vector<bool> is_gap_;                          // cells between pieces that belong together; or none
@@ -185,6 +199,7 @@ void Cut::add_cells() {
     double area = 0;
     for (std::size_t k = 0; k < 4; ++k) area += area_of(cells_.facet(cell, k)) / 4;
     gain_[cell] += area * (2 * winding_[cell] - 1);
+    if (!seen_.inside.empty()) gain_[cell] += seen_.inside[cell];
     constexpr double to_join = 4;  // more than two voted sides cost
     if (!is_gap_.empty() && is_gap_[cell]) gain_[cell] += to_join * area;
   }
@@ -337,14 +352,14 @@ WoundSurface wind(const std::vector<Vec3>& points, const DelaunayCells& cells, s
 
 std::vector<Triangle> cut_surface(const std::vector<Vec3>& points, const std::vector<double>& spacing,
                                   const DelaunayCells& cells, const std::vector<const WoundSurface*>& surfaces,
-                                  const std::vector<CellSide>& known) {
-  return Cut(points, spacing, cells, surfaces).run(known);
+                                  const std::vector<CellSide>& known, const SeenCells& seen) {
+  return Cut(points, spacing, cells, surfaces, seen).run(known);
 }
 
 std::vector<Triangle> join_pieces(const std::vector<Vec3>& points, const std::vector<double>& spacing,
                                   const DelaunayCells& cells, const std::vector<const WoundSurface*>& surfaces,
-                                  const std::vector<Triangle>& parted, double longest) {
-  return Cut(points, spacing, cells, surfaces).run_joined(surfaces, parted, longest);
+                                  const std::vector<Triangle>& parted, double longest, const SeenCells& seen) {
+  return Cut(points, spacing, cells, surfaces, seen).run_joined(surfaces, parted, longest);
 }
 
 }  // namespace scan2fea

@@ -3,6 +3,7 @@
 
 #include "preproc/surface/reconstruction/cell_sides.hpp"
 #include "preproc/surface/reconstruction/delaunay.hpp"
+#include "preproc/surface/reconstruction/seen_cells.hpp"
 
 #include <vector>
 
@@ -24,16 +25,17 @@ WoundSurface wind(const std::vector<Vec3>& points, const DelaunayCells& cells, s
 // of this cut, all of it outwards now; pieces that meet in an edge alone are made one there. Sources of the idea:
 // Labatut, Pons, Keriven, "Robust and efficient surface reconstruction from range data", 2009; winding_number.hpp; the
 // maximum flow is of Boykov and Kolmogorov, 2004, from Boost. Empty where nothing is inside. About 10 us a tetrahedron;
-// parallel in part, the same for any number of threads. `known`: of each tetrahedron, or none.
+// parallel in part, the same for any number of threads. `known`: of each tetrahedron, or none. `seen`: what points
+// themselves say (seen_cells.hpp), beside the surfaces; or nothing.
 std::vector<Triangle> cut_surface(const std::vector<Vec3>& points, const std::vector<double>& spacing,
                                   const DelaunayCells& cells, const std::vector<const WoundSurface*>& surfaces,
-                                  const std::vector<CellSide>& known = {});
+                                  const std::vector<CellSide>& known = {}, const SeenCells& seen = {});
 
 // The same with pieces of `parted`, such a cut, joined across gaps that are no longer than `longest` spacings, where
 // one of the surfaces has them in one component: a front that turns itself inside out on a thin leg has sheets across
 // it, at which the cut parts the leg.
 std::vector<Triangle> join_pieces(const std::vector<Vec3>& points, const std::vector<double>& spacing,
                                   const DelaunayCells& cells, const std::vector<const WoundSurface*>& surfaces,
-                                  const std::vector<Triangle>& parted, double longest);
+                                  const std::vector<Triangle>& parted, double longest, const SeenCells& seen = {});
 
 }  // namespace scan2fea

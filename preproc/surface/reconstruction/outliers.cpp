@@ -5,6 +5,7 @@
 #include "preproc/surface/kernel/parallel_blocks.hpp"
 #include "preproc/surface/kernel/point_neighbours.hpp"
 #include "preproc/surface/reconstruction/local_plane.hpp"
+#include "preproc/surface/reconstruction/sided_neighbours.hpp"
 
 #include <algorithm>
 #include <array>
@@ -34,10 +35,13 @@ LocalPlane plane_of(const std::vector<Vec3>& points, std::span<const Neighbour> 
 // One pass: planes of the points that `is_outlier` does not name, for all points.
 class Pass {
  public:
-  Pass(const std::vector<Vec3>& points, const std::vector<bool>& is_outlier) : points_(points) {
+  Pass(const std::vector<Vec3>& points, const std::vector<Vec3>& outwards, const std::vector<bool>& is_outlier)
+      : points_(points), outwards_(outwards) {
     for (std::uint32_t i = 0; i < points.size(); ++i)
       if (!is_outlier[i]) kept_.push_back(i);
     for (const std::uint32_t i : kept_) kept_points_.push_back(points[i]);
+    if (!outwards.empty())
+      for (const std::uint32_t i : kept_) kept_outwards_.push_back(outwards[i]);
     find_neighbours();
     find_distances();
   }
@@ -50,18 +54,28 @@ class Pass {
   void find_neighbours();
   void find_distances();
 
-  const std::vector<Vec3>& points_;
+  // Of kept points, nearest first.
+  struct Near {
+    std::array<Neighbour, candidates + 1> all;
+    std::size_t count = 0;
+    std::span<const Neighbour> found() const { return std::span(all).first(count); }
+  };
+
+  const std::vector<Vec3>&points_, &outwards_;
   std::vector<std::uint32_t> kept_;
-  std::vector<Vec3> kept_points_;
-  std::vector<std::array<Neighbour, candidates + 1>> near_kept_, near_;  // numbers of kept points
+  std::vector<Vec3> kept_points_, kept_outwards_;
+  std::vector<Near> near_kept_, near_;
 };
 
 void Pass::find_neighbours() {
-  const PointNeighbours neighbours(kept_points_);
+  const SidedNeighbours neighbours(kept_points_, kept_outwards_);
   near_kept_.resize(kept_.size());
   near_.resize(points_.size());
   for_each_block(points_.size(), [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) neighbours.nearest(points_[i], near_[i]);
+    for (std::size_t i = first; i < last; ++i) {
+      const Vec3 outwards = outwards_.empty() ? Vec3(Vec3::Zero()) : outwards_[i];
+      near_[i].count = neighbours.nearest(points_[i], outwards, near_[i].all).size();
+    }
   });
   for (std::size_t k = 0; k < kept_.size(); ++k) near_kept_[k] = near_[kept_[k]];
 }
@@ -76,9 +90,10 @@ void Pass::find_distances() {
     for (std::size_t i = first; i < last; ++i) {
       double best = std::numeric_limits<double>::infinity();
       spacings.clear();
-      for (const Neighbour& n : near_[i]) {
+      for (const Neighbour& n : near_[i].found()) {
         if (kept_[n.point] == i) continue;
-        const auto& own = near_kept_[n.point];
+        const std::span<const Neighbour> own = near_kept_[n.point].found();
+        if (own.size() <= ring) continue;
         double sum = 0;
         for (std::size_t k = 1; k <= ring; ++k) sum += own[k].distance / ring;
         spacings.push_back(sum);
@@ -89,8 +104,9 @@ void Pass::find_distances() {
         best = std::min(best, std::hypot(off, plane.residual));
       }
       distance[i] = best;
-      spacing[i] = median(spacings);
-      isolation[i] = near_[i][4].distance;
+      constexpr std::size_t fourth = 4;
+      spacing[i] = spacings.empty() ? 0 : median(spacings);
+      isolation[i] = near_[i].count > fourth ? near_[i].all[fourth].distance : std::numeric_limits<double>::infinity();
     }
   });
 }
@@ -156,7 +172,7 @@ std::vector<bool> without_crowds(const std::vector<Vec3>& points, const std::vec
 
 }  // namespace
 
-OutlierSearch find_outliers(const std::vector<Vec3>& points) {
+OutlierSearch find_outliers(const std::vector<Vec3>& points, const std::vector<Vec3>& outwards) {
   // Set by three scanned shapes with and without an outlier in a hundred points. Corners and thin parts with too few
   // points lie off all planes as the nearest outliers do: a quarter to seven tenths of the spacing. So those are taken
   // for outliers only where many points are farther off than that: at most two in a thousand of scans without outliers,
@@ -169,7 +185,7 @@ OutlierSearch find_outliers(const std::vector<Vec3>& points) {
   result.is_outlier = is_stray;
   for (int pass = 0; pass < 2; ++pass) {
     if (static_cast<std::size_t>(std::ranges::count(result.is_outlier, false)) < fewest) return {};
-    const Pass found(points, result.is_outlier);
+    const Pass found(points, outwards, result.is_outlier);
     result.noise = median(found.distance);
     const auto is_beyond = [&](std::size_t i, double of_spacing) {
       return found.distance[i] > std::max(of_spacing * found.spacing[i], of_noise * result.noise);

@@ -20,7 +20,7 @@ struct OutlierSearch {
 // twice, the second time with planes of what the first has left. Precondition: no two points in one place. About 50 us
 // a point; parallel, the same for any number of threads. Not guaranteed: outliers that are nearer to the surface than a
 // third of the spacing, or that lie in its continuation, stay; and points of details that are finer than the spacing
-// go.
-OutlierSearch find_outliers(const std::vector<Vec3>& points);
+// go. `outwards` tells points of the two sides of a wall apart (sided_neighbours.hpp).
+OutlierSearch find_outliers(const std::vector<Vec3>& points, const std::vector<Vec3>& outwards = {});
 
 }  // namespace scan2fea

@@ -7,7 +7,9 @@
 #include "preproc/surface/kernel/unused_vertices.hpp"
 #include "preproc/surface/reconstruction/clean_cloud.hpp"
 #include "preproc/surface/reconstruction/consistent_surface.hpp"
+#include "preproc/surface/reconstruction/point_views.hpp"
 #include "preproc/surface/reconstruction/poisson.hpp"
+#include "preproc/surface/reconstruction/sided_neighbours.hpp"
 #include "preproc/surface/reconstruction/surface_outliers.hpp"
 #include "preproc/surface/reconstruction/surface_patches.hpp"
 
@@ -88,27 +90,38 @@ void take_poisson(ReconstructResult& result, const Progress& progress) {
   result.choice = "Poisson's surface, asked for, with normals of " + result.choice;
 }
 
+PointViews views_of(const TrustedViews& trusted, const CleanedCloud& cleaned) {
+  PointViews views = trusted.of(cleaned.points, cleaned.from);
+  views.noise = cleaned.noise;
+  return views;
+}
+
 // Points go to the outliers, or come back from there, and the surface is made again.
-void look_again(ConsistentSurface& found, std::vector<Vec3>& points, std::vector<double>& spacing,
-                std::vector<Vec3>& outliers, const Progress& progress) {
-  std::vector<Vec3> all = points;
-  all.insert(all.end(), outliers.begin(), outliers.end());
-  const std::vector<bool> is_outlier = find_surface_outliers({points, found.triangles}, found.shapes, all);
+void look_again(const TrustedViews& trusted, ConsistentSurface& found, CleanedCloud& cleaned,
+                std::vector<double>& spacing, const Progress& progress) {
+  std::vector<Vec3> all = cleaned.points;
+  all.insert(all.end(), cleaned.outliers.begin(), cleaned.outliers.end());
+  const std::vector<bool> is_outlier = find_surface_outliers({cleaned.points, found.triangles}, found.shapes, all);
   bool is_changed = false;
-  for (std::size_t i = 0; i < all.size(); ++i) is_changed = is_changed || is_outlier[i] != (i >= points.size());
+  for (std::size_t i = 0; i < all.size(); ++i) is_changed = is_changed || is_outlier[i] != (i >= cleaned.points.size());
   if (!is_changed) return;
-  points.clear();
-  outliers.clear();
-  std::vector<std::uint32_t> number(all.size());
+  std::vector<std::uint32_t> number(all.size()), from = std::move(cleaned.from);
+  from.resize(all.size(), no_point);
+  cleaned.points.clear();
+  cleaned.outliers.clear();
+  cleaned.from.clear();
   for (std::size_t i = 0; i < all.size(); ++i) {
-    number[i] = static_cast<std::uint32_t>(points.size());
-    (is_outlier[i] ? outliers : points).push_back(all[i]);
+    number[i] = static_cast<std::uint32_t>(cleaned.points.size());
+    (is_outlier[i] ? cleaned.outliers : cleaned.points).push_back(all[i]);
+    if (!is_outlier[i]) cleaned.from.push_back(from[i]);
   }
-  spacing = point_spacing(points, PointNeighbours(points));
+  const std::vector<Vec3>& points = cleaned.points;
+  const PointViews views = views_of(trusted, cleaned);
+  spacing = sided_spacing(points, views.normals);
   // Where points are few, fronts go another way for one of them.
   constexpr std::size_t few = 20'000;
   if (points.size() < few) {
-    found = find_consistent_surface(points, spacing, progress);
+    found = find_consistent_surface(points, spacing, views, progress);
     return;
   }
   ConsistentSurface before;
@@ -120,24 +133,27 @@ void look_again(ConsistentSurface& found, std::vector<Vec3>& points, std::vector
     before.triangles.push_back(t);
     before.is_made_up.push_back(found.is_made_up[f]);
   }
-  found = renew_surface(points, spacing, before, progress);
+  found = renew_surface(points, spacing, before, views, progress);
 }
 
 }  // namespace
 
 ReconstructResult reconstruct(const PointCloud& cloud, const ReconstructOptions& options, const Progress& progress) {
   ReconstructResult result;
-  CleanedCloud cleaned = clean_cloud(cloud.points, options.largest_cloud, progress);
+  const TrustedViews trusted(cloud, options.scanners);
+  CleanedCloud cleaned = clean_cloud(cloud.points, trusted.outwards(), options.largest_cloud, progress);
   result.repeated = cleaned.repeated;
   result.thinned = cleaned.thinned;
   result.merged = cleaned.merged;
-  result.outliers = std::move(cleaned.outliers);
   result.cell = cleaned.cell;
   result.noise = cleaned.noise;
+  result.views = trusted.told();
+  const PointViews views = views_of(trusted, cleaned);
+  std::vector<double> spacing = sided_spacing(cleaned.points, views.normals);
+  ConsistentSurface found = find_consistent_surface(cleaned.points, spacing, views, progress);
+  if (cleaned.has_outliers) look_again(trusted, found, cleaned, spacing, progress);
   std::vector<Vec3> points = std::move(cleaned.points);
-  std::vector<double> spacing = point_spacing(points, PointNeighbours(points));
-  ConsistentSurface found = find_consistent_surface(points, spacing, progress);
-  if (cleaned.has_outliers) look_again(found, points, spacing, result.outliers, progress);
+  result.outliers = std::move(cleaned.outliers);
   result.spacing = median(spacing);
   const std::vector<SurfacePatch> gaps = find_patches(points, found.triangles, found.is_made_up);
   require_solid(found, points.size());

@@ -38,6 +38,9 @@ struct ReconstructOptions {
   // Gaps of the scan, where no front finds triangles, are closed up to this fraction of the bounding box's diagonal; a
   // larger one is an error. Unset: all are closed. [0, 1]. As RepairOptions::largest_hole_of_diagonal.
   std::optional<double> largest_gap_of_diagonal = 0.35;
+
+  // Where the scanner stood, model units, whatever the cloud tells: each point was seen from one of these.
+  std::vector<Vec3> scanners;
 };
 
 // A place where the surface spans what no points are near: a hole that was bridged, or a gap of the scan.
@@ -67,6 +70,7 @@ struct ReconstructResult {
   PointDistances distances;      // of the given points without outliers from the surface
   std::vector<Bridge> bridges;   // longest first
   std::string choice;            // which surface was taken, and why
+  std::vector<std::string> views;  // of normals and scanners that came with the cloud: what was used, and what not
 };
 
 // The cloud is cleaned (clean_cloud.hpp); advancing fronts of several settings and what they agree on are each made a

@@ -3,8 +3,8 @@
 #include "preproc/mesh/median.hpp"
 #include "preproc/mesh/morton_code.hpp"
 #include "preproc/surface/kernel/parallel_blocks.hpp"
-#include "preproc/surface/kernel/point_neighbours.hpp"
 #include "preproc/surface/reconstruction/local_plane.hpp"
+#include "preproc/surface/reconstruction/sided_neighbours.hpp"
 
 #include <tbb/parallel_sort.h>
 
@@ -92,15 +92,15 @@ ThinnedCloud thin_by_cells(const std::vector<Vec3>& points, std::size_t most) {
   return result;
 }
 
-std::vector<Vec3> merge_near(const std::vector<Vec3>& points, double radius, MergeTo to) {
+MergedPoints merge_near(const std::vector<Vec3>& points, const std::vector<Vec3>& outwards, double radius, MergeTo to) {
   constexpr std::size_t fewest_for_plane = 5;
-  const PointNeighbours neighbours(points);
+  const SidedNeighbours neighbours(points, outwards);
   std::vector<bool> dropped(points.size(), false);
-  std::vector<Vec3> merged;
+  MergedPoints merged;
   for (std::uint32_t i = 0; i < points.size(); ++i) {
     if (dropped[i]) continue;
     std::array<Neighbour, most_near> found;
-    const auto near = neighbours.nearest(points[i], found);
+    const auto near = neighbours.nearest(i, found);
     std::size_t count = 0;
     for (; count < near.size() && near[count].distance < radius; ++count)
       if (near[count].point > i) dropped[near[count].point] = true;
@@ -109,20 +109,21 @@ std::vector<Vec3> merge_near(const std::vector<Vec3>& points, double radius, Mer
       const LocalPlane plane = plane_of(points, near.first(count));
       place = to == MergeTo::mean ? plane.centre : Vec3(place + plane.normal.dot(plane.centre - place) * plane.normal);
     }
-    merged.push_back(place);
+    merged.points.push_back(place);
+    merged.stayed.push_back(i);
   }
   return merged;
 }
 
-Roughness measure_roughness(const std::vector<Vec3>& points) {
+Roughness measure_roughness(const std::vector<Vec3>& points, const std::vector<Vec3>& outwards) {
   constexpr std::size_t about = 8;
   if (points.size() < about) return {};
-  const PointNeighbours neighbours(points);
+  const SidedNeighbours neighbours(points, outwards);
   std::vector<double> relative(points.size()), reach(points.size());
   for_each_block(points.size(), [&](std::size_t first, std::size_t last) {
     std::array<Neighbour, about> found;
     for (std::size_t i = first; i < last; ++i) {
-      const LocalPlane plane = plane_of(points, neighbours.nearest(points[i], found));
+      const LocalPlane plane = plane_of(points, neighbours.nearest(i, found));
       relative[i] = plane.residual / plane.reach;
       reach[i] = plane.reach;
     }

@@ -22,12 +22,18 @@ struct ThinnedCloud {
 // `most` points to stay; none where that is all of them. About a microsecond a point.
 ThinnedCloud thin_by_cells(const std::vector<Vec3>& points, std::size_t most);
 
-// No two points nearer than `radius`: of those on overlapping scan lines one stays, the first of the list.
+// No two points nearer than `radius` of one side (`outwards`, sided_neighbours.hpp): of those on overlapping scan lines
+// one stays, the first of the list.
 enum class MergeTo {
   plane,  // it moves along the normal of those within the radius, where they are five or more, to their plane
   mean,   // it moves to their mean: where noise is as large as the radius there is no plane
 };
-std::vector<Vec3> merge_near(const std::vector<Vec3>& points, double radius, MergeTo place);
+struct MergedPoints {
+  std::vector<Vec3> points;
+  std::vector<std::uint32_t> stayed;  // which of the given points each was
+};
+MergedPoints merge_near(const std::vector<Vec3>& points, const std::vector<Vec3>& outwards, double radius,
+                        MergeTo place);
 
 // How thick the cloud is, seen from near by: the median of the RMS distance of eight neighbouring points from their
 // plane over their reach, which is the distance of the farthest from their mean. A surface has less than 0.1, points
@@ -36,6 +42,6 @@ struct Roughness {
   double relative = 0;
   double reach = 0;
 };
-Roughness measure_roughness(const std::vector<Vec3>& points);
+Roughness measure_roughness(const std::vector<Vec3>& points, const std::vector<Vec3>& outwards);
 
 }  // namespace scan2fea
