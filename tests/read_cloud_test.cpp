@@ -52,6 +52,23 @@ TEST_F(PointRows, AllSeparatorsAndLineEnds) {
   }
 }
 
+TEST_F(PointRows, ScannersOfColumnsAndComments) {
+  const PointCloud named = read("part.csv",
+                                "x,y,z,Scanner X,Scanner_Y,scanner_z\n0,0,0,9,1,2\n1.5,0,0,9,1,2\n0,-2,0,8,1,2\n"
+                                "0,0,0.003,,1,2\n");
+  EXPECT_EQ(named.points, corners_);
+  ASSERT_EQ(named.scanners.size(), 4U);
+  EXPECT_EQ(named.scanners[2], Vec3(8, 1, 2));
+  EXPECT_FALSE(named.scanners[3].allFinite());
+  const PointCloud told =
+      read("part.xyz", "0 0 0\n# scanner 1 2 3\n1.5 0 0\n# Scanner\n0 -2 0\n# scanner: 4, 5, 6\n0 0 3e-3\n");
+  ASSERT_EQ(told.scanners.size(), 4U);
+  EXPECT_FALSE(told.scanners[0].allFinite());
+  EXPECT_EQ(told.scanners[2], Vec3(1, 2, 3));
+  EXPECT_EQ(told.scanners[3], Vec3(4, 5, 6));
+  EXPECT_THAT(read("part.xyz", "# scanner of the house\n0 0 0\n1.5 0 0\n0 -2 0\n0 0 3e-3\n").scanners, IsEmpty());
+}
+
 TEST_F(PointRows, CommentsTitlesAndCounts) {
   for (const char* text :
        {"# made by hand\n0 0 0\n1.5 0 0\n// half\n0 -2 0\n0 0 3e-3\n", "4\n0 0 0\n1.5 0 0\n0 -2 0\n0 0 3e-3\n",

@@ -40,7 +40,7 @@ struct ReconstructOptions {
   std::optional<double> largest_gap_of_diagonal = 0.35;
 
   // Where the scanner stood, model units, whatever the cloud tells: each point was seen from one of these.
-  std::vector<Vec3> scanners;
+  std::vector<Vec3> scanners = {};
 };
 
 // A place where the surface spans what no points are near: a hole that was bridged, or a gap of the scan.
