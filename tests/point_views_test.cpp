@@ -24,7 +24,7 @@ using testing::HasSubstr;
 const std::vector<Vec3> no_positions;
 
 PointCloud scanned_torus() {
-  return scan_surface(analytic::torus(2, 0.7, 90, 40), {.points = 3000, .noise = 0.001}).cloud;
+  return scan_surface(analytic::torus(2, 0.7, 90, 40), {.points = 1500, .noise = 0.001}).cloud;
 }
 
 PointCloud with_normals(PointCloud cloud, const std::function<Vec3(const Vec3&)>& change) {
@@ -132,17 +132,18 @@ TEST(SeenCells, ABallsInsideAndOutside) {
   const std::vector<double> spacing = point_spacing(points, PointNeighbours(points));
   const DelaunayCells cells = Delaunay(points, spacing).cells();
   std::vector<Vec3> scanners(points.size(), Vec3(0, 0, 50));
-  const SeenCells seen = see_cells(points, spacing, cells, {.normals = normals, .scanners = scanners, .noise = 0});
+  const SeenCells seen = see_cells(points, spacing, cells, {.normals = normals, .scanners = scanners, .noise = 0}, 1);
   for (std::size_t c = 0; c < cells.corners.size(); ++c) {
     const auto& corners = cells.corners[c];
     if (std::ranges::find(corners, DelaunayCells::infinite) != corners.end()) continue;
     const bool is_outside = std::ranges::find(corners, points.size() - 1) != corners.end();
     // Beside the rim that is seen from the far point cells lie along the ball.
     const bool is_clear = std::ranges::all_of(corners, [&](std::uint32_t v) { return points[v].z() > 0.5; });
-    if (!is_outside)
+    if (!is_outside) {
       EXPECT_GT(seen.inside[c], 0);
-    else if (is_clear)
+    } else if (is_clear) {
       EXPECT_LT(seen.inside[c], 0);
+    }
   }
   double crossed = 0;
   for (const auto& c : seen.crossed)

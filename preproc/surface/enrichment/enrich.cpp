@@ -1,6 +1,7 @@
 #include "preproc/surface/enrichment/enrich.hpp"
 
 #include "preproc/mesh/error.hpp"
+#include "preproc/surface/enrichment/chord_volume.hpp"
 #include "preproc/surface/enrichment/clear_surface.hpp"
 #include "preproc/surface/enrichment/cut_creases.hpp"
 #include "preproc/surface/enrichment/insertion.hpp"
@@ -75,6 +76,10 @@ void lift_the_rest(HalfedgeMesh& mesh, ClearSurface& clear, const SurfaceLabels&
   triharmonic_lift(mesh, free, measured, {.hold = hold_against(found), .solves = 2, .creases = inserted.on_crease});
   std::vector<Vec3> targets = std::exchange(mesh.points, before);
   move_all(mesh, clear, targets);
+  // Where measured points stay the new ones have it all.
+  if (hold_against(found) > 0)
+    for (Index v = 0; v < original; ++v) free[v] = measured[v];
+  move_all(mesh, clear, with_chord_volume(mesh, free, inserted.on_crease));
 }
 
 void count_moves(const HalfedgeMesh& mesh, const std::vector<Vec3>& bases, Index original, EnrichResult& result) {

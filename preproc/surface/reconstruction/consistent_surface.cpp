@@ -2,8 +2,10 @@
 
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/error_text.hpp"
+#include "preproc/surface/kernel/adjacency.hpp"
 #include "preproc/surface/kernel/components.hpp"
 #include "preproc/surface/primitives/find_primitives.hpp"
+#include "preproc/surface/primitives/point_normals.hpp"
 #include "preproc/surface/reconstruction/cell_sides.hpp"
 #include "preproc/surface/reconstruction/delaunay.hpp"
 #include "preproc/surface/reconstruction/minimum_cut.hpp"
@@ -78,8 +80,8 @@ class Search {
     for (const WoundSurface& front : fronts_) all.push_back(&front);
     add_candidate("what advancing fronts agree on", all);
     // A share of faults goes with the number of points.
-    constexpr std::size_t points_of_fault = 20'000;
-    const bool is_clean = !candidates_.empty() && candidates_[0].faults() <= points_.size() / points_of_fault;
+    constexpr std::size_t points_of_one = 20'000;
+    const bool is_clean = !candidates_.empty() && candidates_[0].faults() <= points_.size() / points_of_one;
     for (std::size_t i = 0; i < fronts_.size() && !is_clean; ++i)
       add_candidate("an advancing front of beta " + error_text(betas_[i]), {&fronts_[i]});
     if (candidates_.empty())
@@ -94,33 +96,60 @@ class Search {
   }
 
  private:
-  // On a part the best once more, by what its shapes say.
+  static constexpr std::size_t points_of_fault = 200;
+
+  // The best once more, by what its shapes say where it is a part, else by its normals.
   void hold_against_shapes() {
     constexpr std::size_t few = 20'000;  // beyond, fronts go astray no more, and shapes take long
-    constexpr std::size_t points_of_fault = 200;
-    const Candidate& best = *std::ranges::min_element(candidates_, {}, &Candidate::faults);
+    const Candidate best = *std::ranges::min_element(candidates_, {}, &Candidate::faults);
     // A surface that crumples tells no shapes: what was scanned is open.
     if (points_.size() > few || best.surface.crowded_edges > points_.size() / points_of_fault) return;
     shapes_ = find_primitives({points_, best.surface.triangles}, {}, progress_);
-    if (shapes_.kind != ScanKind::part) return;
-    Candidate shaped{.surface = {},
-                     .name = best.name + ", held against the part's shapes",
-                     .fronts = best.fronts,
-                     .is_shaped = true};
-    shaped.surface.triangles =
-        cut_surface(points_, spacing_, cells_, best.fronts, sides_by_shapes(points_, cells_, shapes_), seen_);
-    if (shaped.surface.triangles.empty()) return;
-    measure(shaped.surface);
-    // Where shapes meet in edges, a fault or two may come in with what they mend.
-    if (shaped.surface.bodies > best.surface.bodies ||
-        shaped.faults() > best.faults() + points_.size() / points_of_fault)
-      return;
-    candidates_.clear();
-    candidates_.push_back(std::move(shaped));
+    if (shapes_.kind != ScanKind::part) return look_twice(best);
+    add_instead_of(best,
+                   {.surface = {},
+                    .name = best.name + ", held against the part's shapes",
+                    .fronts = best.fronts,
+                    .is_shaped = true},
+                   sides_by_shapes(points_, cells_, shapes_), seen_);
   }
 
   void look() {
-    if (!views_.is_empty()) seen_ = see_cells(points_, spacing_, cells_, views_);
+    // Over the areas that the cut saves. By trials with 1 to 32: less leaves thin sheets with holes, more crumples
+    // edges, beyond which a face's points take for inside what is behind them.
+    constexpr double weight = 4;
+    if (!views_.is_empty()) seen_ = see_cells(points_, spacing_, cells_, views_, weight);
+  }
+
+  // Of a free form the best once more, by the normals that came with the points, or else those that it tells: single
+  // points of a thin limb say more about its inside than triangles across it.
+  void look_twice(const Candidate& best) {
+    // No edges that it crumples, as on parts: by trials with 4 to 32; beyond, webs come in between limbs.
+    constexpr double weight = 8;
+    PointViews views = views_;
+    if (views.normals.empty()) views.normals = normals_ = normals_by(best.surface.triangles);
+    add_instead_of(best, {.surface = {}, .name = best.name + ", and what normals tell", .fronts = best.fronts}, {},
+                   see_cells(points_, spacing_, cells_, views, weight));
+  }
+
+  std::vector<Vec3> normals_by(const std::vector<Triangle>& triangles) const {
+    constexpr std::size_t neighbours = 20;
+    const std::vector<Vec3> outwards = vertex_normals({points_, triangles});
+    return own_side_normals(points_, nearest_in_space(points_, outwards, neighbours), outwards).normals;
+  }
+
+  // Cut by more than fronts say, and alone from then on unless more is wrong with it.
+  void add_instead_of(const Candidate& best, Candidate candidate, const std::vector<CellSide>& known,
+                      const SeenCells& seen) {
+    candidate.surface.triangles = cut_surface(points_, spacing_, cells_, best.fronts, known, seen);
+    if (candidate.surface.triangles.empty()) return;
+    measure(candidate.surface);
+    // Where shapes meet in edges, a fault or two may come in with what they mend.
+    if (candidate.surface.bodies > best.surface.bodies ||
+        candidate.faults() > best.faults() + points_.size() / points_of_fault)
+      return;
+    candidates_.clear();
+    candidates_.push_back(std::move(candidate));
   }
 
   void make_fronts() {
@@ -203,15 +232,17 @@ class Search {
   // By the normals of its corners: the cap of a gap turns from those of the gap's rim.
   bool is_seen(const Triangle& t) const {
     constexpr double least = 0.3;  // cosine: a bevel of an edge has 0.7, or 0.6 in a corner
-    if (views_.normals.empty()) return false;
+    const std::vector<Vec3>& normals = views_.normals.empty() ? normals_ : views_.normals;
+    if (normals.empty()) return false;
     const Vec3 n = (points_[t[1]] - points_[t[0]]).cross(points_[t[2]] - points_[t[0]]).normalized();
-    return std::ranges::all_of(t, [&](std::uint32_t v) { return views_.normals[v].dot(n) > least; });
+    return std::ranges::all_of(t, [&](std::uint32_t v) { return normals[v].dot(n) > least; });
   }
 
   const std::vector<Vec3>& points_;
   const std::vector<double>& spacing_;
   const PointViews& views_;
   const Progress& progress_;
+  std::vector<Vec3> normals_;  // where none came with the points
   SeenCells seen_;
   std::vector<double> betas_;
   DelaunayCells cells_;

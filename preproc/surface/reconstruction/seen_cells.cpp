@@ -12,20 +12,17 @@ namespace {
 class Viewing {
  public:
   Viewing(const std::vector<Vec3>& points, const std::vector<double>& spacing, const DelaunayCells& cells,
-          const PointViews& views)
-      : points_(points), spacing_(spacing), cells_(cells), views_(views) {
+          const PointViews& views, double weight)
+      : points_(points), spacing_(spacing), cells_(cells), views_(views), weight_(weight) {
     seen_.inside.assign(cells.corners.size(), 0.0);
     seen_.crossed.assign(cells.corners.size(), {0, 0, 0, 0});
     list_cells();
   }
 
   SeenCells run() {
-    // Of triangles, whose areas the cut saves otherwise. By trials with one to thirty-two: less leaves thin sheets with
-    // holes, more crumples edges, beyond which a face's points take for inside what is behind them.
-    constexpr double weight = 4;
     for (std::uint32_t i = 0; i < points_.size(); ++i) {
       // Of a lattice of equilateral triangles.
-      const double area = weight * 0.5 * std::sqrt(3.0) * spacing_[i] * spacing_[i];
+      const double area = weight_ * 0.5 * std::sqrt(3.0) * spacing_[i] * spacing_[i];
       if (!views_.normals.empty()) vote(i, area);
       if (!views_.scanners.empty() && views_.scanners[i].allFinite()) look(i, views_.scanners[i], area);
     }
@@ -133,6 +130,7 @@ class Viewing {
   const std::vector<double>& spacing_;
   const DelaunayCells& cells_;
   const PointViews& views_;
+  double weight_;
   SeenCells seen_;
   std::vector<std::size_t> first_;    // of each point, in `about_`
   std::vector<std::uint32_t> about_;  // cells that have it
@@ -141,8 +139,8 @@ class Viewing {
 }  // namespace
 
 SeenCells see_cells(const std::vector<Vec3>& points, const std::vector<double>& spacing, const DelaunayCells& cells,
-                    const PointViews& views) {
-  return Viewing(points, spacing, cells, views).run();
+                    const PointViews& views, double weight) {
+  return Viewing(points, spacing, cells, views, weight).run();
 }
 
 }  // namespace scan2fea

@@ -19,11 +19,11 @@ struct SeenCells {
   std::vector<std::array<double, 4>> crossed;  // by views that leave it through the facet opposite to each corner
 };
 
-// What a point says weighs four times its area, which its spacing tells. Cells about it are inside where they are
+// What a point says weighs `weight` times its area, which its spacing tells. Cells about it are inside where they are
 // behind it, outside where before, as squarely as they are so; and the view from it to the scanner leaves no cell that
 // is inside. What is within three times the noise of the point is no obstacle. O(points) for normals; about 0.1 us for
 // each cell that a view crosses.
 SeenCells see_cells(const std::vector<Vec3>& points, const std::vector<double>& spacing, const DelaunayCells& cells,
-                    const PointViews& views);
+                    const PointViews& views, double weight);
 
 }  // namespace scan2fea
