@@ -76,6 +76,8 @@ void lift_the_rest(HalfedgeMesh& mesh, ClearSurface& clear, const SurfaceLabels&
   triharmonic_lift(mesh, free, measured, {.hold = hold_against(found), .solves = 2, .creases = inserted.on_crease});
   std::vector<Vec3> targets = std::exchange(mesh.points, before);
   move_all(mesh, clear, targets);
+  // On parts the few without a primitive lie between some, and creases fare no better for it.
+  if (!found.list.empty()) return;
   // Where measured points stay the new ones have it all.
   if (hold_against(found) > 0)
     for (Index v = 0; v < original; ++v) free[v] = measured[v];
