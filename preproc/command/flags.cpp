@@ -449,10 +449,6 @@ void add_number_flags(CLI::App& command, NumberFlags& flags) {
       .add_option("--first-element", flags.numbers.first_element, "The same of elements; properties and sets follow")
       ->check(numbers)
       ->type_name("N");
-  // A deck is of one mesh.
-  if (command.get_option_no_throw("--deck") != nullptr)
-    for (const char* flag : {"--set-prefix", "--first-node", "--first-element"})
-      command.get_option(flag)->excludes("--deck");
 }
 
 void add_contact_flag(CLI::App& command, std::optional<double>& tolerance) {
