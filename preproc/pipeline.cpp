@@ -45,10 +45,10 @@ Progress in_half_of_the_time(const Progress& progress) {
 }
 
 // Where there is no scan beside the surface, where corner nodes are not its vertices, and where time is short.
-CurveResult curve_on_scan(TetMesh& mesh, const SurfaceMesh& scan) {
+CurveResult curve_on_scan(TetMesh& mesh, const SurfaceMesh& scan, const Progress& progress) {
   add_mid_edge_nodes(mesh);
   EdgePlaces to = nearest_on_scan(mesh, TriangleTree(scan));
-  return curve_mid_edge_nodes(mesh, to);
+  return curve_mid_edge_nodes(mesh, to, progress);
 }
 
 void note_left_out(const Progress& stage, const char* what, StageRecord& record, PipelineResult& result) {
@@ -189,7 +189,7 @@ void MeshMaker::curve(const Progress& progress) {
     const Progress in_time = progress.until(progress.end());
     if (search_ && made_.filled.boundary_parent.empty())
       in_time.improve([&](const Progress& p) { curved = make_second_order(*search_, tetrahedralization_, made_, p); });
-    if (made_.filled.mesh.order() == 1) curved.curved = curve_on_scan(made_.filled.mesh, scan());
+    if (made_.filled.mesh.order() == 1) curved.curved = curve_on_scan(made_.filled.mesh, scan(), in_time);
     describe(curved, in_scan_, record);
     note_left_out(in_time, "curved sides that are fitted to the scan", record, result_);
   });

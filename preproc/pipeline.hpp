@@ -54,7 +54,7 @@ struct MadeSet {
 struct MadeBody {
   std::string name;
   double volume_of_scan = 0;  // after it was repaired and joined with others
-  double volume = 0;          // of what was made, with straight edges
+  double volume = 0;          // of the elements as they are
   std::size_t tetrahedra = 0;
 };
 

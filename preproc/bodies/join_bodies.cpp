@@ -91,6 +91,7 @@ class Join {
     const BoundingBox own_box = bounding_box(body_.vertices), box = bounding_box(outer.vertices);
     if (are_apart(own_box, box, 0)) return;
     const InsideTest in_complex(outer), in_body(body_);
+    refuse_inside(in_complex, outer, in_body);
     double deepest = tolerance_;
     Vec3 place;
     std::uint32_t other = no_body;
@@ -111,6 +112,25 @@ class Join {
         }
       }
     if (other != no_body) fail_overlap(deepest, place, other);
+  }
+
+  // A tolerance that is larger than a body would hide that two solids are in one place.
+  void refuse_inside(const InsideTest& in_complex, const SurfaceMesh& outer, const InsideTest& in_body) const {
+    if (!options_.tolerance) return;
+    const double exact = contact_tolerance(complex_.mesh, outer_, body_, all_of(body_));
+    const auto lies_in = [&](const SurfaceMesh& mesh, const InsideTest& other) {
+      return std::ranges::all_of(mesh.triangles, [&](const Triangle& t) {
+        return std::ranges::all_of(t, [&](std::uint32_t v) {
+          const InsideTest::Answer answer = other(mesh.vertices[v]);
+          return answer.inside && answer.distance > exact;
+        });
+      });
+    };
+    if (!lies_in(body_, in_complex) && !lies_in(outer, in_body)) return;
+    const Vec3& place = body_.vertices[body_.triangles.front()[0]];
+    fail("one body lies inside of the other's solid", in_complex(place).distance,
+         "subtract one from the other where they are drawn", place,
+         complex_.sides[outer_[in_complex(place).triangle]].behind);
   }
 
   [[noreturn]] void fail_overlap(double depth, const Vec3& place, std::uint32_t other) const {

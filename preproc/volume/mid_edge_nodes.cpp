@@ -136,7 +136,10 @@ CurveResult curve_mid_edge_nodes(TetMesh& mesh, EdgePlaces& to, const Progress& 
     if (std::ranges::any_of(mesh.mid_edge_nodes[t], [&](std::uint32_t v) { return held[v]; }) &&
         curved_quality(mesh, t) < 1)
       poor.push_back(t);
-  relocate_mid_edge_nodes(mesh, poor, held, 1, progress);
+  // Where many are poor, the surface is too coarse for its bends, and easing alone does as well.
+  constexpr double many_poor = 0.1;
+  if (static_cast<double>(poor.size()) <= many_poor * static_cast<double>(mesh.tetrahedra.size()))
+    relocate_mid_edge_nodes(mesh, poor, held, 1, progress);
   std::vector<std::uint32_t> suspects;
   for (std::uint32_t t = 0; t < mesh.tetrahedra.size(); ++t)
     if (std::ranges::any_of(mesh.mid_edge_nodes[t], [&](auto v) { return mesh.nodes[v] != straight[v]; }))

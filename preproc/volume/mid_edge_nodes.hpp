@@ -36,8 +36,8 @@ struct CurveResult {
 };
 
 // Puts the nodes of boundary edges to their places, or as far towards them as the elements stay good: then `to` has
-// where they are. The mesh is of second order with positive tetrahedra. Throws Cancelled and OutOfTime, and
-// then the mesh is of no use. Deterministic, near linear.
+// where they are. The mesh is of second order with positive tetrahedra. Without time for improvements
+// more nodes are eased. Throws Cancelled. Deterministic, near linear.
 CurveResult curve_mid_edge_nodes(TetMesh& mesh, EdgePlaces& to, const Progress& progress = {});
 
 }  // namespace scan2fea

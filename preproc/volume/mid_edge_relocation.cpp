@@ -33,7 +33,8 @@ class MidEdgeRelocation {
       std::sort(worst_first.begin(), worst_first.end());
       bool has_moved = false;
       for (std::size_t i = 0; i < worst_first.size(); ++i) {
-        if (i % 16 == 0) progress("curved elements", sweep / static_cast<double>(most_sweeps));
+        if (i % 16 == 0) progress.tell("curved elements", sweep / static_cast<double>(most_sweeps));
+        if (!progress.may_improve()) return;
         for (std::size_t e = 0; e < 6; ++e) has_moved |= move(worst_first[i].second, e, wanted);
       }
       if (!has_moved) return;

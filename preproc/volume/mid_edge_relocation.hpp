@@ -16,7 +16,8 @@ double curved_quality(const TetMesh& mesh, std::size_t tetrahedron);
 
 // Nodes of edges of these elements that are not `held` go to where the worst element around the edge is best, by at
 // most a quarter of the edge: a search along shrinking steps, by turns until no element is below `wanted` or none
-// gains. The mesh is of second order. Throws Cancelled and OutOfTime. Deterministic; some 0.2 ms a node.
+// gains. The mesh is of second order. Ends when there is no time
+// for improvements. Throws Cancelled. Deterministic; some 0.2 ms a node.
 void relocate_mid_edge_nodes(TetMesh& mesh, const std::vector<std::uint32_t>& poor, const std::vector<bool>& held,
                              double wanted, const Progress& progress = {});
 

@@ -14,8 +14,8 @@ namespace {
 
 // The third changes the RMS distance by less than a hundredth.
 constexpr int rounds = 3;
-// A node of an edge that would have to go farther to its line belongs to another place of it.
-constexpr double farthest_on_line = 0.25;
+// Of an edge's length: what would have to go farther belongs to another place of the scan.
+constexpr double largest_bend = 0.25;
 constexpr double least_angle_deg = 30;
 
 // Corners along their normals, nodes of edges along that of both faces.
@@ -45,7 +45,7 @@ void place_lines(CurvedSurface& surface, const FeatureNet& net, bool keep_corner
     const Vec3 on_line = line.point_at(middle_place(line, piece.from_place, piece.to_place));
     const double length = (surface.corners.vertices[piece.from] - surface.corners.vertices[piece.to]).norm();
     directions[surface.corners.vertices.size() + e].setZero();
-    if ((on_line - surface.mid[e]).norm() <= farthest_on_line * length) surface.mid[e] = on_line;
+    if ((on_line - surface.mid[e]).norm() <= largest_bend * length) surface.mid[e] = on_line;
   }
 }
 
@@ -72,6 +72,16 @@ std::vector<std::uint32_t> spoilt_faces(const CurvedSurface& surface, const Surf
   std::sort(faces.begin(), faces.end());
   faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
   return faces;
+}
+
+// No edge bends farther than a quarter of its length, as where corners came near to one another.
+void limit_bends(CurvedSurface& surface) {
+  for (std::size_t e = 0; e < surface.edges.size(); ++e) {
+    const Vec3 middle = surface.middle(e), bend = surface.mid[e] - middle;
+    const auto& [a, b] = surface.edges[e];
+    const double most = largest_bend * (surface.corners.vertices[a] - surface.corners.vertices[b]).norm();
+    if (bend.norm() > most) surface.mid[e] = middle + most / bend.norm() * bend;
+  }
 }
 
 // With the volume, where spoilt faces are straight as they were.
@@ -114,6 +124,7 @@ FittedCurves fit_curves(const SurfaceMesh& surface, const FeatureNet& net, const
     }
   }
   progress("curved sides", rounds / (rounds + 1.0));
+  limit_bends(fitted.surface);
   settle(fitted, straight);
   return fitted;
 }
