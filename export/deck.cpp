@@ -8,6 +8,7 @@
 #include "preproc/mesh/error_text.hpp"
 #include "preproc/mesh/file_extension.hpp"
 #include "preproc/mesh/length_unit.hpp"
+#include "preproc/mesh/union_find.hpp"
 
 #include <algorithm>
 #include <array>
@@ -72,6 +73,29 @@ void count_shared_nodes(const TetMesh& mesh, DeckParts& parts) {
   std::vector<std::uint32_t> shared;
   std::ranges::set_intersection(nodes(needed[0]), nodes(needed[1]), std::back_inserter(shared));
   parts.shared_nodes = shared.size();
+}
+
+// A part that nothing holds and that shares no node with one that is held: solvers give displacements of any size.
+void require_held(const TetMesh& mesh, const std::string& file) {
+  UnionFind joined(mesh.nodes.size());
+  for (const Tetrahedron& t : mesh.tetrahedra)
+    for (const std::uint32_t v : t) joined.unite(t[0], v);
+  const std::size_t f = find_set(mesh.face_sets, needed[0]);
+  const std::vector<std::uint32_t> fixed = f < mesh.face_sets.size() && !mesh.face_sets[f].members.empty()
+                                               ? nodes_of_faces(mesh, mesh.face_sets[f].members)
+                                               : mesh.node_sets[find_set(mesh.node_sets, needed[0])].members;
+  std::vector<bool> is_held(mesh.nodes.size(), false);
+  for (const std::uint32_t v : fixed) is_held[joined.find(v)] = true;
+  for (const Tetrahedron& t : mesh.tetrahedra)
+    if (!is_held[joined.find(t[0])]) {
+      ErrorParts parts{.what = "a part of the mesh is not held by the set",
+                       .where = file,
+                       .value = std::string(needed[0]),
+                       .limit = {},
+                       .advice = "a set fixed that has faces of each part, or --deck modal"};
+      parts.at = mesh.nodes[t[0]];
+      throw WrongUsage(std::move(parts));
+    }
 }
 
 void find_bodies(const TetMesh& mesh, const WrittenNames& names, DeckParts& parts) {
@@ -173,6 +197,7 @@ std::string deck_text(const TetMesh& mesh, const std::filesystem::path& mesh_fil
                   .other = {},
                   .other_name = free_name(options.set_prefix + "OTHER", names.elements)};
   if (kind == DeckKind::static_analysis) {
+    require_held(mesh, file);
     find_loaded(mesh, names, file, parts);
     count_shared_nodes(mesh, parts);
   }

@@ -151,6 +151,18 @@ void add_values(const nlohmann::json& value, const std::string& key, std::vector
   }
 }
 
+// CalculiX gives a free part displacements of 1e10 and no word.
+TEST(Deck, OfAPartThatNothingHoldsIsRefused) {
+  TetMesh mesh = analytic::part_with_sets(1);
+  mesh.unit = "mm";
+  deck_text(mesh, "part.inp", static_analysis);
+  const auto first = static_cast<std::uint32_t>(mesh.nodes.size());
+  mesh.nodes.insert(mesh.nodes.end(), {{90, 0, 0}, {91, 0, 0}, {90, 1, 0}, {90, 0, 1}});
+  mesh.tetrahedra.push_back({first, first + 1, first + 2, first + 3});
+  EXPECT_THAT(refused([&] { deck_text(mesh, "part.inp", static_analysis); }), HasSubstr("not held"));
+  deck_text(mesh, "part.inp", DeckKind::modal);
+}
+
 TEST(Deck, OfCodeAsterIsPythonAndItsGroupsAreInTheMesh) {
   const TemporaryFolder folder;
   write_volume(analytic::part_with_sets(2), folder / "part.inp");

@@ -195,6 +195,13 @@ TEST(JoinBodies, OneWithinAnothersMaterialIsAnOverlap) {
             std::string::npos);
 }
 
+// As large a tolerance as an error's advice once was: two solids in one place are no contact.
+TEST(JoinBodies, OneWithinAnothersMaterialIsOneWhateverTheTolerance) {
+  const std::vector<Body> bodies{{"big", box(20, 20, 10, 20, {0, 0, 0})}, {"inner", box(7, 8, 6, 8, {5, 5, 2})}};
+  EXPECT_THROW(join_bodies(bodies, {.tolerance = 2.02}), NotMeshable);
+  EXPECT_THROW(join_bodies(std::vector<Body>{bodies[1], bodies[0]}, {.tolerance = 2.02}), NotMeshable);
+}
+
 TEST(JoinBodies, FarBodiesStayAsTheyAre) {
   const std::vector<Body> bodies{{"a", box(4, 3, 2, 1, {0, 0, 0})}, {"b", box(5, 3, 2, 0.7, {6, 0, 0})}};
   const BodyComplex complex = join_bodies(bodies);
