@@ -6,16 +6,14 @@
 namespace scan2fea {
 namespace {
 
-Vec3 point_at(const std::array<Vec3, 6>& x, double u, double v) {
-  const double w = 1 - u - v;
-  return w * (2 * w - 1) * x[0] + u * (2 * u - 1) * x[1] + v * (2 * v - 1) * x[2] +
-         4 * (w * u * x[3] + u * v * x[4] + v * w * x[5]);
+Vec3 at(const SixNodeTriangle& x, const Eigen::Vector2d& place) {
+  return point_on(x, {1 - place[0] - place[1], place[0], place[1]});
 }
 
 // The curve lies at the sum of 4 a b (m - (p + q) / 2) over the edges, with a and b its coordinates, from the flat
 // triangle: at most four ninths of the sum of these bends (in the centre), or the largest of them (on its edge). Cut
 // into n along each edge, it bends n^2 times less.
-int cuts_for(const std::array<Vec3, 6>& x, double tolerance) {
+int cuts_for(const SixNodeTriangle& x, double tolerance) {
   double sum = 0, largest = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     const double bend = (x[3 + k] - 0.5 * (x[k] + x[(k + 1) % 3])).norm();
@@ -28,19 +26,19 @@ int cuts_for(const std::array<Vec3, 6>& x, double tolerance) {
   return static_cast<int>(std::clamp(cuts, 1.0, static_cast<double>(most_cuts)));
 }
 
-std::array<Vec3, 6> nodes_of(const FlatPieces& pieces, std::uint32_t curved) {
-  std::array<Vec3, 6> x;
+SixNodeTriangle nodes_of(const FlatPieces& pieces, std::uint32_t curved) {
+  SixNodeTriangle x;
   for (std::size_t k = 0; k < 6; ++k) x[k] = pieces.nodes[pieces.curved[curved].nodes[k]];
   return x;
 }
 
 void add_pieces(FlatPieces& pieces, std::uint32_t curved, double tolerance) {
-  const std::array<Vec3, 6> x = nodes_of(pieces, curved);
+  const SixNodeTriangle x = nodes_of(pieces, curved);
   const int n = cuts_for(x, tolerance);
   const auto first = static_cast<std::uint32_t>(pieces.mesh.vertices.size());
   const auto place = [&](int i, int j) -> Eigen::Vector2d { return Eigen::Vector2d(i, j) / n; };
   for (int j = 0; j <= n; ++j)
-    for (int i = 0; i + j <= n; ++i) pieces.mesh.vertices.push_back(point_at(x, place(i, j)[0], place(i, j)[1]));
+    for (int i = 0; i + j <= n; ++i) pieces.mesh.vertices.push_back(at(x, place(i, j)));
   const auto vertex = [&](int i, int j) {  // rows of n + 1, n, ... vertices
     return first + static_cast<std::uint32_t>(j * (n + 1) - j * (j - 1) / 2 + i);
   };
@@ -60,8 +58,7 @@ void add_pieces(FlatPieces& pieces, std::uint32_t curved, double tolerance) {
 
 Vec3 FlatPieces::on_curve(std::uint32_t piece, double first, double second) const {
   const auto& [a, b, c] = places[piece];
-  const Eigen::Vector2d at = first * a + second * b + (1 - first - second) * c;
-  return point_at(nodes_of(*this, of_piece[piece]), at[0], at[1]);
+  return at(nodes_of(*this, of_piece[piece]), first * a + second * b + (1 - first - second) * c);
 }
 
 FlatPieces flat_pieces(const TetMesh& mesh, double tolerance) {

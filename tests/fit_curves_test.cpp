@@ -122,7 +122,7 @@ TEST(FitCurves, NodesOfARimLieOnItsLine) {
   EXPECT_GE(on_rim, 20U);
   // And what is plane stays plane.
   for (std::size_t f = 0; f < surface.corners.triangles.size(); ++f) {
-    const QuadraticPatch x = surface.triangle(f);
+    const SixNodeTriangle x = surface.triangle(f);
     if (!std::all_of(x.begin(), x.begin() + 3, [](const Vec3& p) { return std::abs(p.z() - 2) < 1e-6; })) continue;
     for (const Vec3& p : x) EXPECT_NEAR(p.z(), 2, 1e-9);
   }

@@ -12,14 +12,6 @@ struct Face {
   BoundaryFace face;
 };
 
-// Of a triangle of second order, at the second and third barycentric coordinate: as long as the map stretches areas.
-Vec3 normal_at(const std::array<Vec3, 6>& x, double u, double v) {
-  const double w = 1 - u - v;
-  const Vec3 du = (4 * u - 1) * x[1] - (4 * w - 1) * x[0] + 4 * ((w - u) * x[3] + v * x[4] - v * x[5]);
-  const Vec3 dv = (4 * v - 1) * x[2] - (4 * w - 1) * x[0] + 4 * (-u * x[3] + u * x[4] + (w - v) * x[5]);
-  return du.cross(dv);
-}
-
 }  // namespace
 
 Triangle boundary_mid_edge_nodes(const TetMesh& mesh, BoundaryFace f) {
@@ -35,17 +27,9 @@ Triangle boundary_mid_edge_nodes(const TetMesh& mesh, BoundaryFace f) {
   return nodes;
 }
 
-double curved_area(const std::array<Vec3, 6>& x) {
-  // Radon's rule: the centre, and three points on each of two triangles.
-  const double root = std::sqrt(15.0), near = (6 - root) / 21, far = (6 + root) / 21;
-  const auto at = [&](double u, double v) { return normal_at(x, u, v).norm(); };
-  const auto around = [&](double a) { return at(a, a) + at(1 - 2 * a, a) + at(a, 1 - 2 * a); };
-  return (0.225 * at(1.0 / 3, 1.0 / 3) + (155 - root) / 1200 * around(near) + (155 + root) / 1200 * around(far)) / 2;
-}
-
-std::array<Vec3, 6> boundary_face_nodes(const TetMesh& mesh, BoundaryFace f) {
+SixNodeTriangle boundary_face_nodes(const TetMesh& mesh, BoundaryFace f) {
   const Triangle corners = boundary_triangle(mesh, f);
-  std::array<Vec3, 6> x;
+  SixNodeTriangle x;
   for (std::size_t k = 0; k < 3; ++k) x[k] = mesh.nodes[corners[k]];
   if (mesh.order() == 1) {
     for (std::size_t k = 0; k < 3; ++k) x[3 + k] = 0.5 * (x[k] + x[(k + 1) % 3]);
@@ -57,14 +41,19 @@ std::array<Vec3, 6> boundary_face_nodes(const TetMesh& mesh, BoundaryFace f) {
 }
 
 double face_area(const TetMesh& mesh, BoundaryFace f) {
-  const std::array<Vec3, 6> x = boundary_face_nodes(mesh, f);
+  const SixNodeTriangle x = boundary_face_nodes(mesh, f);
   return mesh.order() == 1 ? (x[1] - x[0]).cross(x[2] - x[0]).norm() / 2 : curved_area(x);
 }
 
 Vec3 face_vector_area(const TetMesh& mesh, BoundaryFace f) {
   // The normal is of second degree, for which the rule of the edges' middles is exact.
-  const std::array<Vec3, 6> x = boundary_face_nodes(mesh, f);
-  return (normal_at(x, 0.5, 0) + normal_at(x, 0.5, 0.5) + normal_at(x, 0, 0.5)) / 6;
+  const SixNodeTriangle x = boundary_face_nodes(mesh, f);
+  Vec3 sum = Vec3::Zero();
+  for (const std::array<double, 3>& middle : {std::array{0.5, 0.5, 0.0}, {0.0, 0.5, 0.5}, {0.5, 0.0, 0.5}}) {
+    const auto [by_second, by_third] = tangents(x, middle);
+    sum += by_second.cross(by_third);
+  }
+  return sum / 6;
 }
 
 std::vector<std::uint32_t> nodes_of_faces(const TetMesh& mesh, std::span<const std::uint32_t> faces) {

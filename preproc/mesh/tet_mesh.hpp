@@ -2,6 +2,7 @@
 #pragma once
 
 #include "preproc/mesh/named_sets.hpp"
+#include "preproc/mesh/six_node_triangle.hpp"
 #include "preproc/mesh/surface_mesh.hpp"
 
 #include <array>
@@ -59,13 +60,9 @@ inline Triangle boundary_triangle(const TetMesh& mesh, BoundaryFace f) {
 // The nodes in the middle of the edges of `boundary_triangle`: 12, 23, 31. Precondition: the mesh is of second order.
 Triangle boundary_mid_edge_nodes(const TetMesh& mesh, BoundaryFace f);
 
-// Of a triangle of second order: corners, then the nodes between 12, 23 and 31. By a rule of degree five, exact to
-// about the fourth power of the bend.
-double curved_area(const std::array<Vec3, 6>& nodes);
-
-// A boundary face of any order: the corners of `boundary_triangle`, then the nodes between 12, 23 and 31, which of
-// first order are where straight edges have their middles.
-std::array<Vec3, 6> boundary_face_nodes(const TetMesh& mesh, BoundaryFace f);
+// A boundary face of any order, its corners those of `boundary_triangle`; of first order the nodes between them are
+// where straight edges have their middles.
+SixNodeTriangle boundary_face_nodes(const TetMesh& mesh, BoundaryFace f);
 
 // Of the face as it is: of second order curved.
 double face_area(const TetMesh& mesh, BoundaryFace f);

@@ -24,7 +24,7 @@ constexpr double farthest_of_edge = 0.25;
 
 // The foot of the perpendicular on the curved triangle by Newton's method, from where the plane ones have it; or the
 // nearest edge point of the way there.
-std::array<double, 3> foot_on(const QuadraticPatch& x, const Vec3& p, std::array<double, 3> b) {
+std::array<double, 3> foot_on(const SixNodeTriangle& x, const Vec3& p, std::array<double, 3> b) {
   constexpr int steps = 2;
   for (int step = 0; step < steps; ++step) {
     const auto [u, v] = tangents(x, b);
@@ -110,7 +110,7 @@ void CurveFitter::locate_samples() {
 
 CurveFitter::Equations CurveFitter::equations_of(std::size_t f, const std::vector<Vec3>& directions) const {
   Equations sum;
-  const QuadraticPatch x = cut_.triangle(f);
+  const SixNodeTriangle x = cut_.triangle(f);
   const std::array<std::size_t, 6> nodes = surface_.nodes_of(f);
   const double farthest = farthest_of_edge * mean_edge_;
   for (std::uint32_t k = first_[f]; k < first_[f + 1]; ++k) {

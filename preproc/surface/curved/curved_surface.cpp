@@ -23,25 +23,6 @@ constexpr std::array<QuadraturePoint, 6> degree_four{{{{1 - 2 * a1, a1, a1}, w1}
 
 }  // namespace
 
-std::array<double, 6> shape_functions(const std::array<double, 3>& b) {
-  return {b[0] * (2 * b[0] - 1), b[1] * (2 * b[1] - 1), b[2] * (2 * b[2] - 1),
-          4 * b[0] * b[1],       4 * b[1] * b[2],       4 * b[2] * b[0]};
-}
-
-std::array<Vec3, 2> tangents(const QuadraticPatch& x, const std::array<double, 3>& b) {
-  const Vec3 by_first = (4 * b[0] - 1) * x[0] + 4 * b[1] * x[3] + 4 * b[2] * x[5];
-  const Vec3 by_second = (4 * b[1] - 1) * x[1] + 4 * b[0] * x[3] + 4 * b[2] * x[4];
-  const Vec3 by_third = (4 * b[2] - 1) * x[2] + 4 * b[1] * x[4] + 4 * b[0] * x[5];
-  return {by_second - by_first, by_third - by_first};
-}
-
-Vec3 point_on(const QuadraticPatch& x, const std::array<double, 3>& barycentric) {
-  const std::array<double, 6> share = shape_functions(barycentric);
-  Vec3 p = Vec3::Zero();
-  for (std::size_t i = 0; i < 6; ++i) p += share[i] * x[i];
-  return p;
-}
-
 CurvedSurface::CurvedSurface(SurfaceMesh surface) : corners(std::move(surface)), mid_of_face(corners.triangles.size()) {
   for (const Triangle& t : corners.triangles)
     for (std::size_t k = 0; k < 3; ++k) edges.push_back(feature_edge(t[k], t[(k + 1) % 3]));
@@ -67,7 +48,7 @@ std::array<std::size_t, 6> CurvedSurface::nodes_of(std::size_t face) const {
   return {t[0], t[1], t[2], first + e[0], first + e[1], first + e[2]};
 }
 
-QuadraticPatch CurvedSurface::triangle(std::size_t face) const {
+SixNodeTriangle CurvedSurface::triangle(std::size_t face) const {
   const Triangle &t = corners.triangles[face], &e = mid_of_face[face];
   return {corners.vertices[t[0]], corners.vertices[t[1]], corners.vertices[t[2]], mid[e[0]], mid[e[1]], mid[e[2]]};
 }
@@ -75,7 +56,7 @@ QuadraticPatch CurvedSurface::triangle(std::size_t face) const {
 double curved_volume(const CurvedSurface& surface, const std::vector<std::uint32_t>& faces, const Vec3& centre) {
   double six_volumes = 0;
   for (const std::uint32_t f : faces) {
-    QuadraticPatch x = surface.triangle(f);
+    SixNodeTriangle x = surface.triangle(f);
     for (Vec3& p : x) p -= centre;
     for (const QuadraturePoint& q : degree_four) {
       const auto [u, v] = tangents(x, q.barycentric);
@@ -88,7 +69,7 @@ double curved_volume(const CurvedSurface& surface, const std::vector<std::uint32
 std::vector<Vec3> volume_gradient(const CurvedSurface& surface) {
   std::vector<Vec3> gradient(surface.nodes(), Vec3::Zero());
   for (std::size_t f = 0; f < surface.corners.triangles.size(); ++f) {
-    const QuadraticPatch x = surface.triangle(f);
+    const SixNodeTriangle x = surface.triangle(f);
     const std::array<std::size_t, 6> nodes = surface.nodes_of(f);
     for (const QuadraturePoint& q : degree_four) {
       const auto [u, v] = tangents(x, q.barycentric);

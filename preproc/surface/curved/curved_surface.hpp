@@ -1,6 +1,7 @@
 // A surface of six-node triangles: straight corners, and a node near the middle of every edge.
 #pragma once
 
+#include "preproc/mesh/six_node_triangle.hpp"
 #include "preproc/mesh/surface_mesh.hpp"
 #include "preproc/surface/kernel/adjacency.hpp"
 
@@ -10,17 +11,6 @@
 #include <vector>
 
 namespace scan2fea {
-
-// Of one triangle: corners, then the nodes between 12, 23 and 31.
-using QuadraticPatch = std::array<Vec3, 6>;
-
-// The shape functions, and so the position at barycentric coordinates: sum N_i x_i.
-std::array<double, 6> shape_functions(const std::array<double, 3>& barycentric);
-
-// Derivatives of the position by the second and the third barycentric coordinate, the first being the rest.
-std::array<Vec3, 2> tangents(const QuadraticPatch& x, const std::array<double, 3>& barycentric);
-
-Vec3 point_on(const QuadraticPatch& x, const std::array<double, 3>& barycentric);
 
 struct CurvedSurface {
   SurfaceMesh corners;
@@ -32,7 +22,7 @@ struct CurvedSurface {
   explicit CurvedSurface(SurfaceMesh surface);
   CurvedSurface() = default;
 
-  QuadraticPatch triangle(std::size_t face) const;
+  SixNodeTriangle triangle(std::size_t face) const;
   // Corners first, then the nodes of the edges: the numbers that the fit works with.
   std::size_t nodes() const { return corners.vertices.size() + mid.size(); }
   std::array<std::size_t, 6> nodes_of(std::size_t face) const;

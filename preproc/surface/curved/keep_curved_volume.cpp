@@ -28,7 +28,7 @@ void hold_planes(const CurvedSurface& surface, const std::vector<std::vector<std
   constexpr double least_moving_area = 0.05;
   std::vector<bool> is_plane(surface.nodes(), true);
   for (std::size_t f = 0; f < surface.corners.triangles.size(); ++f) {
-    const QuadraticPatch x = surface.triangle(f);
+    const SixNodeTriangle x = surface.triangle(f);
     for (const std::array<double, 3>& corner : {std::array{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}) {
       const auto [u, v] = tangents(x, corner);
       const Vec3 area = u.cross(v);

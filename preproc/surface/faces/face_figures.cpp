@@ -1,7 +1,7 @@
 #include "preproc/surface/faces/face_figures.hpp"
 
 #include "preproc/mesh/named_sets.hpp"
-#include "preproc/mesh/tet_mesh.hpp"
+#include "preproc/mesh/six_node_triangle.hpp"
 #include "preproc/surface/primitives/fit_shape.hpp"
 #include "preproc/surface/primitives/shape_set.hpp"
 
@@ -104,7 +104,7 @@ std::optional<Shape> fit_face(const SurfaceMesh& mesh, const std::vector<Index>&
 }
 
 double area_on_shape(const SurfaceMesh& mesh, Index triangle, const SurfaceFace& face) {
-  std::array<Vec3, 6> p;
+  SixNodeTriangle p;
   for (std::size_t k = 0; k < 3; ++k) p[k] = mesh.vertices[mesh.triangles[triangle][k]];
   if (!face.shape) return area_vector(mesh, mesh.triangles[triangle]).norm() / 2;
   for (std::size_t k = 0; k < 3; ++k) p[k] = face.shape->foot(p[k]);
