@@ -64,14 +64,18 @@ void find_loaded(const TetMesh& mesh, const WrittenNames& names, const std::stri
   }
 }
 
+// Of the set of faces of this name, or of nodes where there is none.
+std::vector<std::uint32_t> nodes_of_set(const TetMesh& mesh, std::string_view name) {
+  const std::size_t f = find_set(mesh.face_sets, name);
+  if (f < mesh.face_sets.size() && !mesh.face_sets[f].members.empty())
+    return nodes_of_faces(mesh, mesh.face_sets[f].members);
+  return mesh.node_sets[find_set(mesh.node_sets, name)].members;
+}
+
 void count_shared_nodes(const TetMesh& mesh, DeckParts& parts) {
-  const auto nodes = [&](std::string_view name) {
-    const std::size_t f = find_set(mesh.face_sets, name);
-    return f < mesh.face_sets.size() ? nodes_of_faces(mesh, mesh.face_sets[f].members)
-                                     : mesh.node_sets[find_set(mesh.node_sets, name)].members;
-  };
   std::vector<std::uint32_t> shared;
-  std::ranges::set_intersection(nodes(needed[0]), nodes(needed[1]), std::back_inserter(shared));
+  std::ranges::set_intersection(nodes_of_set(mesh, needed[0]), nodes_of_set(mesh, needed[1]),
+                                std::back_inserter(shared));
   parts.shared_nodes = shared.size();
 }
 
@@ -80,12 +84,8 @@ void require_held(const TetMesh& mesh, const std::string& file) {
   UnionFind joined(mesh.nodes.size());
   for (const Tetrahedron& t : mesh.tetrahedra)
     for (const std::uint32_t v : t) joined.unite(t[0], v);
-  const std::size_t f = find_set(mesh.face_sets, needed[0]);
-  const std::vector<std::uint32_t> fixed = f < mesh.face_sets.size() && !mesh.face_sets[f].members.empty()
-                                               ? nodes_of_faces(mesh, mesh.face_sets[f].members)
-                                               : mesh.node_sets[find_set(mesh.node_sets, needed[0])].members;
   std::vector<bool> is_held(mesh.nodes.size(), false);
-  for (const std::uint32_t v : fixed) is_held[joined.find(v)] = true;
+  for (const std::uint32_t v : nodes_of_set(mesh, needed[0])) is_held[joined.find(v)] = true;
   for (const Tetrahedron& t : mesh.tetrahedra)
     if (!is_held[joined.find(t[0])]) {
       ErrorParts parts{.what = "a part of the mesh is not held by the set",

@@ -235,12 +235,8 @@ void BodiesPipeline::curve(StageRecord& record) {
       }
   }
   describe({.curved = curve_mid_edge_nodes(mesh, to)}, InScan({}), record);
-  std::size_t t = 0;  // bodies are filled one after the other
-  for (MadeBody& body : made_bodies_) {
-    body.volume = 0;
-    for (const std::size_t end = t + body.tetrahedra; t < end; ++t)
-      body.volume += volume_of(curved_tetrahedron(mesh, t));
-  }
+  for (std::size_t b = 0; b < made_bodies_.size(); ++b)
+    made_bodies_[b].volume = volume_of(mesh, mesh.element_sets[b].members);
   measure_sets(result_);
   result_.weak_places = find_weak_places(result_.surface, &mesh, scan_.mesh);
 }

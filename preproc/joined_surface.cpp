@@ -56,19 +56,6 @@ OwnVertices own_vertices(const std::vector<Vec3>& vertices, std::vector<Triangle
   return own;
 }
 
-// Per vertex, whether all triangles around it lie in one plane.
-std::vector<bool> vertices_in_planes(const SurfaceMesh& mesh) {
-  constexpr double plane_rad = 1e-4;  // as where volumes are preserved
-  const std::vector<Vec3> normals = vertex_normals(mesh);
-  std::vector<bool> is_plane(mesh.vertices.size(), true);
-  for (const Triangle& t : mesh.triangles) {
-    const Vec3 area = area_vector(mesh, t);
-    for (const std::uint32_t v : t)
-      if (area.cross(normals[v]).norm() > plane_rad * area.norm()) is_plane[v] = false;
-  }
-  return is_plane;
-}
-
 // Adds the pieces between bodies one after the other.
 class Interfaces {
  public:

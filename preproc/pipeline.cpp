@@ -286,7 +286,6 @@ void run_stages(SurfaceMesh scan, const SurfaceMesh* seen, const PipelineOptions
     result.volume_mesh->face_sets = parent.empty() ? result.face_sets : carried_sets(result.face_sets, parent);
     if (options.order == 2) {
       measure_sets(result);
-      result.weak_places = find_weak_places(result.surface, &*result.volume_mesh, result.reference());
     }
   }
 }

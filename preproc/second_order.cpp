@@ -38,15 +38,8 @@ CurveResult curve(FittedCurves& fitted, TetMesh& mesh, const Progress& progress)
     if (fitted.surface.mid[e] != to.places[e]) fitted.directions[corners + e].setZero();
   fitted.surface.mid = std::move(to.places);
   keep_curved_volume(fitted.surface, fitted.volumes, fitted.directions);
-  for (std::size_t f = 0; f < mesh.boundary.size(); ++f) {
-    const Triangle nodes = boundary_mid_edge_nodes(mesh, mesh.boundary[f]);
-    const Triangle own = boundary_triangle(mesh, mesh.boundary[f]);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const FeatureEdge edge = feature_edge(own[k], own[(k + 1) % 3]);
-      const auto at = std::lower_bound(to.edges.begin(), to.edges.end(), edge);
-      mesh.nodes[nodes[k]] = fitted.surface.mid[static_cast<std::size_t>(at - to.edges.begin())];
-    }
-  }
+  to.places = fitted.surface.mid;
+  place_mid_edge_nodes(mesh, to);
   result.volume = total_volume(mesh);
   return result;
 }

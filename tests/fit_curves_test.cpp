@@ -19,10 +19,14 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-double volume_of(const CurvedSurface& surface) {
+std::vector<std::uint32_t> all_faces(const CurvedSurface& surface) {
   std::vector<std::uint32_t> all(surface.corners.triangles.size());
   std::iota(all.begin(), all.end(), 0U);
-  return curved_volume(surface, all, Vec3::Zero());
+  return all;
+}
+
+double volume_of(const CurvedSurface& surface) {
+  return curved_volume(surface, all_faces(surface), Vec3::Zero());
 }
 
 // Of nine points of each triangle, by a function of the place; weights as areas would be almost alike.
@@ -65,7 +69,8 @@ TEST(CurvedSurface, OfStraightEdgesIsTheSurface) {
 TEST(CurvedSurface, VolumeGradientIsThatOfTheVolume) {
   CurvedSurface curved(analytic::sphere(1, 1));
   for (Vec3& p : curved.mid) p *= 1.03;
-  const std::vector<Vec3> gradient = volume_gradient(curved);
+  std::vector<Vec3> gradient(curved.nodes(), Vec3::Zero());
+  add_volume_gradient(curved, all_faces(curved), gradient);
   for (const std::size_t i : {std::size_t{3}, curved.corners.vertices.size() + 7})
     for (int k = 0; k < 3; ++k) {
       CurvedSurface moved = curved;

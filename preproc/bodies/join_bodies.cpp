@@ -128,9 +128,9 @@ class Join {
     };
     if (!lies_in(body_, in_complex) && !lies_in(outer, in_body)) return;
     const Vec3& place = body_.vertices[body_.triangles.front()[0]];
-    fail("one body lies inside of the other's solid", in_complex(place).distance,
-         "subtract one from the other where they are drawn", place,
-         complex_.sides[outer_[in_complex(place).triangle]].behind);
+    const InsideTest::Answer answer = in_complex(place);
+    fail("one body lies inside of the other's solid", answer.distance,
+         "subtract one from the other where they are drawn", place, complex_.sides[outer_[answer.triangle]].behind);
   }
 
   [[noreturn]] void fail_overlap(double depth, const Vec3& place, std::uint32_t other) const {

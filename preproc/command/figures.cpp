@@ -103,9 +103,10 @@ Json to_json(const std::vector<MadeContact>& contacts) {
 Json sets_of(const TetMesh& mesh) {
   Json list = Json::array();
   for (const NamedSet& set : mesh.element_sets) {
-    double volume = 0;
-    for (const std::uint32_t t : set.members) volume += volume_of(mesh, t);
-    list.push_back({{"name", set.name}, {"kind", "elements"}, {"volume", volume}, {"tetrahedra", set.members.size()}});
+    list.push_back({{"name", set.name},
+                    {"kind", "elements"},
+                    {"volume", volume_of(mesh, set.members)},
+                    {"tetrahedra", set.members.size()}});
   }
   for (const NamedSet& set : mesh.face_sets) {
     double area = 0;

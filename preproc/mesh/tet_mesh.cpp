@@ -163,6 +163,12 @@ double volume_of(const CurvedTetrahedron& nodes) {
   return sum / 6;
 }
 
+double volume_of(const TetMesh& mesh, std::span<const std::uint32_t> tetrahedra) {
+  double sum = 0;
+  for (const std::uint32_t t : tetrahedra) sum += volume_of(mesh, t);
+  return sum;
+}
+
 double total_volume(const TetMesh& mesh) {
   double volume = 0;
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {

@@ -93,6 +93,9 @@ inline double volume_of(const TetMesh& mesh, std::size_t tetrahedron) {
   return volume_of(curved_tetrahedron(mesh, tetrahedron));
 }
 
+// Of these elements.
+double volume_of(const TetMesh& mesh, std::span<const std::uint32_t> tetrahedra);
+
 // Sum over the elements as they are: of second order curved.
 double total_volume(const TetMesh& mesh);
 

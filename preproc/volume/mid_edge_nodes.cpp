@@ -24,9 +24,6 @@ constexpr double farthest_of_edge = 0.25;
 constexpr double easing = 0.85;
 constexpr int most_easings = 20;
 
-// The node in the middle of each of these edges; no_node where the boundary has no such edge.
-constexpr std::uint32_t no_node = ~0U;
-
 template <class T>
 void sort_and_unique(std::vector<T>& values) {
   std::sort(values.begin(), values.end());
@@ -119,18 +116,23 @@ std::vector<int> ease(TetMesh& mesh, const std::vector<Vec3>& straight, std::vec
 
 }  // namespace
 
-CurveResult curve_mid_edge_nodes(TetMesh& mesh, EdgePlaces& to, const Progress& progress) {
-  const std::vector<Vec3> straight = mesh.nodes;
-  std::vector<std::uint32_t> node_of_place(to.places.size(), no_node);
-  std::vector<bool> held(mesh.nodes.size(), false);
+std::vector<std::uint32_t> place_mid_edge_nodes(TetMesh& mesh, const EdgePlaces& to) {
+  std::vector<std::uint32_t> node_of_place(to.places.size());
   for (const BoundaryEdge& edge : boundary_edges(mesh)) {
-    held[edge.node] = true;
     const auto at = std::lower_bound(to.edges.begin(), to.edges.end(), edge.ends);
     if (at == to.edges.end() || *at != edge.ends) continue;
     const auto e = static_cast<std::size_t>(at - to.edges.begin());
     node_of_place[e] = edge.node;
     mesh.nodes[edge.node] = to.places[e];
   }
+  return node_of_place;
+}
+
+CurveResult curve_mid_edge_nodes(TetMesh& mesh, EdgePlaces& to, const Progress& progress) {
+  const std::vector<Vec3> straight = mesh.nodes;
+  const std::vector<std::uint32_t> node_of_place = place_mid_edge_nodes(mesh, to);
+  std::vector<bool> held(mesh.nodes.size(), false);
+  for (const std::uint32_t v : node_of_place) held[v] = true;
   std::vector<std::uint32_t> poor;
   for (std::uint32_t t = 0; t < mesh.tetrahedra.size(); ++t)
     if (std::ranges::any_of(mesh.mid_edge_nodes[t], [&](std::uint32_t v) { return held[v]; }) &&
@@ -138,25 +140,25 @@ CurveResult curve_mid_edge_nodes(TetMesh& mesh, EdgePlaces& to, const Progress& 
       poor.push_back(t);
   // Where many are poor, the surface is too coarse for its bends, and easing alone does as well.
   constexpr double many_poor = 0.1;
-  if (static_cast<double>(poor.size()) <= many_poor * static_cast<double>(mesh.tetrahedra.size()))
+  if (!poor.empty() && static_cast<double>(poor.size()) <= many_poor * static_cast<double>(mesh.tetrahedra.size()))
     relocate_mid_edge_nodes(mesh, poor, held, 1, progress);
-  std::vector<std::uint32_t> suspects;
+  std::vector<std::uint32_t> moved_elements;
   for (std::uint32_t t = 0; t < mesh.tetrahedra.size(); ++t)
     if (std::ranges::any_of(mesh.mid_edge_nodes[t], [&](auto v) { return mesh.nodes[v] != straight[v]; }))
-      suspects.push_back(t);
-  const std::vector<int> easings = ease(mesh, straight, suspects);
+      moved_elements.push_back(t);
+  const std::vector<int> easings =
+      poor.empty() ? std::vector<int>(mesh.nodes.size(), 0) : ease(mesh, straight, moved_elements);
 
   CurveResult result;
   for (std::size_t e = 0; e < to.places.size(); ++e) {
     const std::uint32_t v = node_of_place[e];
-    if (v == no_node) continue;
     to.places[e] = mesh.nodes[v];
     const double moved = (mesh.nodes[v] - straight[v]).norm();
     result.curved += moved > 0;
     result.eased += easings[v] > 0;
     result.largest_displacement = std::max(result.largest_displacement, moved);
   }
-  for (const std::uint32_t t : suspects)
+  for (const std::uint32_t t : moved_elements)
     result.least_scaled_jacobian =
         std::min(result.least_scaled_jacobian, curved_scaled_jacobian(curved_tetrahedron(mesh, t)));
   result.tetrahedra = mesh.tetrahedra.size();

@@ -26,6 +26,10 @@ struct EdgePlaces {
 // farther than a quarter of the edge: there it is that of another sheet. O(n log m) for m scan triangles.
 EdgePlaces nearest_on_scan(const TetMesh& mesh, const TriangleTree& scan);
 
+// Puts the nodes of boundary edges to their places. Returns the node of each place. The mesh is of second order, and
+// its boundary has each of these edges.
+std::vector<std::uint32_t> place_mid_edge_nodes(TetMesh& mesh, const EdgePlaces& to);
+
 struct CurveResult {
   std::size_t tetrahedra = 0, nodes = 0;
   std::size_t curved = 0;            // nodes of boundary edges that are not in their middles

@@ -168,20 +168,6 @@ class Optimisation {
     return true;
   }
 
-  // The star as seen from its vertex; returns its least quality.
-  double look_from(std::uint32_t v) {
-    complex_.star(v, around_);
-    faces_.clear();
-    double least = std::numeric_limits<double>::infinity();
-    for (const std::uint32_t t : around_) {
-      const TetComplex::Element& element = complex_.element(t);
-      const Triangle f = face_opposite(element.corners, corner_of(element.corners, v));
-      faces_.push_back({complex_.node(f[0]), complex_.node(f[2]), complex_.node(f[1])});
-      least = std::min(least, element.quality);
-    }
-    return least;
-  }
-
   void smoothing() {
     // Which stars are worth a look, by one pass over the elements in the order of memory.
     std::vector<double> least(complex_.node_count(), std::numeric_limits<double>::infinity());
@@ -190,7 +176,7 @@ class Optimisation {
         for (const std::uint32_t v : complex_.element(t).corners) least[v] = std::min(least[v], complex_.quality(t));
     for (std::uint32_t v = 0; v < complex_.node_count() && !time_is_up(); ++v) {
       if (least[v] > smoothing_threshold || complex_.fixed(v)) continue;
-      double quality = look_from(v);
+      double quality = look_from(complex_, v, around_, faces_);
       Vec3 place = complex_.node(v);
       if (smooth_by_entropy(faces_, place, quality)) complex_.move_node(v, place, around_);
     }
@@ -207,7 +193,7 @@ class Optimisation {
       bool moved = false;
       for (const std::uint32_t v : corners) {
         if (complex_.fixed(v)) continue;
-        double quality = look_from(v);
+        double quality = look_from(complex_, v, around_, faces_);
         Vec3 place = complex_.node(v);
         if (!relocate_max_min(faces_, place, quality, relocation_steps)) continue;
         complex_.move_node(v, place, around_);

@@ -31,14 +31,7 @@ bool is_two_sided(const TetComplex::Element& element, std::span<const std::array
 }
 
 void relocate(TetComplex& complex, std::uint32_t v, std::vector<std::uint32_t>& around, StarFaces& faces) {
-  complex.star(v, around);
-  faces.clear();
-  double quality = std::numeric_limits<double>::infinity();
-  for (const std::uint32_t t : around) {
-    const Triangle f = face_opposite(complex.element(t).corners, corner_of(complex.element(t).corners, v));
-    faces.push_back({complex.node(f[0]), complex.node(f[2]), complex.node(f[1])});
-    quality = std::min(quality, complex.quality(t));
-  }
+  double quality = look_from(complex, v, around, faces);
   Vec3 place = complex.node(v);
   if (relocate_max_min(faces, place, quality, relocation_steps)) complex.move_node(v, place, around);
 }

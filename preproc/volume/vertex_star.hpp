@@ -5,6 +5,7 @@
 #include "preproc/volume/tet_quality.hpp"
 
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -23,5 +24,10 @@ inline double star_quality(const StarFaces& faces, const Vec3& x, double floor =
   }
   return least;
 }
+
+class TetComplex;
+
+// The star of a vertex of the complex, by its elements and as seen from it; returns its least quality.
+double look_from(const TetComplex& complex, std::uint32_t v, std::vector<std::uint32_t>& elements, StarFaces& faces);
 
 }  // namespace scan2fea

@@ -66,9 +66,9 @@ double curved_volume(const CurvedSurface& surface, const std::vector<std::uint32
   return six_volumes / 6;
 }
 
-std::vector<Vec3> volume_gradient(const CurvedSurface& surface) {
-  std::vector<Vec3> gradient(surface.nodes(), Vec3::Zero());
-  for (std::size_t f = 0; f < surface.corners.triangles.size(); ++f) {
+void add_volume_gradient(const CurvedSurface& surface, const std::vector<std::uint32_t>& faces,
+                         std::vector<Vec3>& gradient) {
+  for (const std::uint32_t f : faces) {
     const SixNodeTriangle x = surface.triangle(f);
     const std::array<std::size_t, 6> nodes = surface.nodes_of(f);
     for (const QuadraturePoint& q : degree_four) {
@@ -78,7 +78,6 @@ std::vector<Vec3> volume_gradient(const CurvedSurface& surface) {
       for (std::size_t i = 0; i < 6; ++i) gradient[nodes[i]] += share[i] * area;
     }
   }
-  return gradient;
 }
 
 SurfaceMesh in_four(const CurvedSurface& surface) {

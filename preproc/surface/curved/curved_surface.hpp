@@ -39,8 +39,9 @@ struct CurvedSurface {
 // Enclosed by these faces of a closed surface, about `centre`; exact, by a rule of degree four.
 double curved_volume(const CurvedSurface& surface, const std::vector<std::uint32_t>& faces, const Vec3& centre);
 
-// The derivative of the enclosed volume by the place of each node.
-std::vector<Vec3> volume_gradient(const CurvedSurface& surface);
+// Adds its derivative by the place of each node.
+void add_volume_gradient(const CurvedSurface& surface, const std::vector<std::uint32_t>& faces,
+                         std::vector<Vec3>& gradient);
 
 // Each triangle as four plane ones: what stands for the surface where it is asked for neighbours and crossings.
 // Vertices are numbered as the nodes are; triangles 4 f to 4 f + 3 are of face f, at its three corners and in its

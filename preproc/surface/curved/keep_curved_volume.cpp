@@ -1,5 +1,6 @@
 #include "preproc/surface/curved/keep_curved_volume.hpp"
 
+#include "preproc/surface/fit/preserve_volume.hpp"
 #include "preproc/surface/kernel/components.hpp"
 
 #include <algorithm>
@@ -24,8 +25,6 @@ Vec3 centre_of(const SurfaceMesh& surface) {
 // Nodes around which the surface is plane get no direction, as long as enough is left to move.
 void hold_planes(const CurvedSurface& surface, const std::vector<std::vector<std::uint32_t>>& components,
                  std::vector<Vec3>& directions) {
-  constexpr double plane_rad = 1e-4;  // 32-bit coordinates turn a triangle by less, a curved surface by far more
-  constexpr double least_moving_area = 0.05;
   std::vector<bool> is_plane(surface.nodes(), true);
   for (std::size_t f = 0; f < surface.corners.triangles.size(); ++f) {
     const SixNodeTriangle x = surface.triangle(f);
@@ -69,6 +68,7 @@ void keep_curved_volume(CurvedSurface& surface, const std::vector<double>& volum
   const Vec3 centre = centre_of(surface.corners);
   hold_planes(surface, components, directions);
   const double farthest = farthest_of_edge * mean_edge_length(surface.corners);
+  std::vector<Vec3> gradient(surface.nodes());
   for (std::size_t c = 0; c < components.size(); ++c) {
     std::vector<std::size_t> nodes;
     for (const std::uint32_t f : components[c])
@@ -79,7 +79,8 @@ void keep_curved_volume(CurvedSurface& surface, const std::vector<double>& volum
     for (int step = 0; step < most_steps; ++step) {
       const double missing = volumes[c] - curved_volume(surface, components[c], centre);
       if (std::abs(missing) <= exact * std::abs(volumes[c])) break;
-      const std::vector<Vec3> gradient = volume_gradient(surface);
+      for (const std::size_t i : nodes) gradient[i].setZero();
+      add_volume_gradient(surface, components[c], gradient);
       double swept = 0;
       for (const std::size_t i : nodes) swept += gradient[i].dot(directions[i]);
       const double shift = missing / swept;

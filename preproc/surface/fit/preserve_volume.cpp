@@ -124,21 +124,12 @@ double shift_to_volume(SurfaceMesh& mesh, const std::vector<std::uint32_t>& face
 }
 
 // A part's plane faces stay plane as long as something else can give the volume: vertices in them get no direction,
-// unless that leaves less than a twentieth of the component's area to move.
+// unless that leaves too little of the component's area to move.
 void hold_planes(const SurfaceMesh& mesh, const Parts& parts, std::vector<Vec3>& directions) {
-  constexpr double plane_rad = 1e-4;  // 32-bit coordinates turn a triangle by less, a curved surface by far more
-  constexpr double least_moving_area = 0.05;
-  const VertexStars stars(mesh);
   const std::vector<Vec3> all = directions;
-  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
-    const Vec3 normal = directions[v].normalized();
-    const auto corners = stars.corners(v);
-    if (std::all_of(corners.begin(), corners.end(), [&](std::uint32_t corner) {
-          const Vec3 area = area_vector(mesh, mesh.triangles[corner / 3]);
-          return area.cross(normal).norm() <= plane_rad * area.norm();
-        }))
-      directions[v].setZero();
-  }
+  const std::vector<bool> is_plane = vertices_in_planes(mesh);
+  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v)
+    if (is_plane[v]) directions[v].setZero();
   for (const std::vector<std::uint32_t>& faces : parts.faces) {
     double moving = 0, whole = 0;
     for (const std::uint32_t f : faces)
@@ -154,6 +145,17 @@ void hold_planes(const SurfaceMesh& mesh, const Parts& parts, std::vector<Vec3>&
 }
 
 }  // namespace
+
+std::vector<bool> vertices_in_planes(const SurfaceMesh& mesh) {
+  const std::vector<Vec3> normals = vertex_normals(mesh);
+  std::vector<bool> is_plane(mesh.vertices.size(), true);
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3 area = area_vector(mesh, t);
+    for (const std::uint32_t v : t)
+      if (area.cross(normals[v]).norm() > plane_rad * area.norm()) is_plane[v] = false;
+  }
+  return is_plane;
+}
 
 VolumeShift preserve_volume(SurfaceMesh& mesh, const SurfaceMesh& like, const VertexConstraints& constraints) {
   if (mesh.triangles.empty() || like.triangles.empty()) return {};

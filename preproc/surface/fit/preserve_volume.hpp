@@ -5,8 +5,19 @@
 #include "preproc/surface/kernel/vertex_constraint.hpp"
 
 #include <cstddef>
+#include <vector>
 
 namespace scan2fea {
+
+// By more than this a triangle is turned out of a plane: 32-bit coordinates turn one by less, a curved surface by far
+// more.
+inline constexpr double plane_rad = 1e-4;
+
+// Per vertex, whether all triangles around it lie in one plane.
+std::vector<bool> vertices_in_planes(const SurfaceMesh& mesh);
+
+// Plane faces stay where they are if what is curved has this part of a component's area or more.
+inline constexpr double least_moving_area = 0.05;
 
 struct VolumeShift {
   double largest_displacement = 0;  // of a vertex, model units

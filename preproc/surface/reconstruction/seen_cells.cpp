@@ -1,5 +1,7 @@
 #include "preproc/surface/reconstruction/seen_cells.hpp"
 
+#include "preproc/surface/kernel/solid_angle.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -81,8 +83,7 @@ class Viewing {
       std::size_t count = 0;
       for (const std::uint32_t v : corners)
         if (v != point) way[count++] = (points_[v] - points_[point]).normalized();
-      const double volume = std::abs(way[0].dot(way[1].cross(way[2])));
-      const double angle = 2 * std::atan2(volume, 1 + way[0].dot(way[1]) + way[1].dot(way[2]) + way[2].dot(way[0]));
+      const double angle = std::abs(solid_angle(way[0], way[1], way[2]));
       const Vec3 middle = (way[0] + way[1] + way[2]).normalized();
       seen_.inside[about_[k]] -= area * angle / std::numbers::pi * middle.dot(views_.normals[point]);
     }
