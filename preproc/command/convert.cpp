@@ -6,6 +6,7 @@
 #include "preproc/command/output_files.hpp"
 #include "preproc/command/progress_display.hpp"
 #include "preproc/command/sub_commands.hpp"
+#include "preproc/command/written_file_flags.hpp"
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/error_text.hpp"
 #include "preproc/mesh/length_unit.hpp"

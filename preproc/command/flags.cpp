@@ -1,11 +1,11 @@
 #include "preproc/command/flags.hpp"
 
+#include "preproc/command/choice_flag.hpp"
 #include "preproc/mesh/length_unit.hpp"
 
 #include <CLI/Validators.hpp>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <utility>
 
@@ -21,27 +21,6 @@ const CLI::Validator positive(
       return number && value > 0 ? std::string() : "must be a number above 0, is '" + text + "'";
     },
     "NUMBER > 0");
-
-template <class Value>
-using Choices = std::vector<std::pair<std::string, Value>>;
-
-template <class Value, class Target = Value>
-CLI::Option* add_choice(CLI::App& command, const std::string& flag, Target& value, const Choices<Value>& choices,
-                        const std::string& text) {
-  std::string list;
-  for (const auto& choice : choices) list += (list.empty() ? "" : ", ") + choice.first;
-  return command
-      .add_option_function<std::string>(
-          flag,
-          [&value, choices, list, flag](const std::string& name) {
-            const auto found =
-                std::find_if(choices.begin(), choices.end(), [&](const auto& c) { return c.first == name; });
-            if (found == choices.end()) throw CLI::ValidationError(flag, "'" + name + "' is none of " + list);
-            value = found->second;
-          },
-          text + " (" + list + ")")
-      ->type_name("NAME");
-}
 
 // The values of an enumeration under the names that the library gives them.
 template <class Enum, std::size_t n>
@@ -423,34 +402,6 @@ void add_tetrahedralize_flags(CLI::App& command, TetrahedralizeOptions& options,
       ->type_name("Q");
 }
 
-void add_deck_flag(CLI::App& command, std::optional<DeckKind>& deck) {
-  add_choice<DeckKind>(
-      command, "--deck", deck, {{"static", DeckKind::static_analysis}, {"modal", DeckKind::modal}},
-      "Also write a deck that runs, beside an .inp for CalculiX, beside a .med or .mail for Code_Aster; "
-      "for sets named fixed and loaded");
-}
-
-void add_number_flags(CLI::App& command, NumberFlags& flags) {
-  const auto is_start_of_name = [](const std::string& text) {
-    const bool fits = !text.empty() && text.size() <= 20 && std::isalpha(static_cast<unsigned char>(text.front())) &&
-                      std::ranges::all_of(text, [](unsigned char c) { return std::isalnum(c) || c == '_'; });
-    return fits ? std::string()
-                : "'" + text + "' is no start of a name: a letter, then letters, digits and _, up to 20";
-  };
-  command.add_option("--set-prefix", flags.set_prefix, "Put before the names of all sets, as PIN_")
-      ->check(CLI::Validator(is_start_of_name, ""))
-      ->type_name("NAME");
-  const CLI::Range numbers(std::uint64_t{1}, std::uint64_t{1} << 40);
-  command
-      .add_option("--first-node", flags.numbers.first_node, "Number of the first node, where the format has numbers")
-      ->check(numbers)
-      ->type_name("N");
-  command
-      .add_option("--first-element", flags.numbers.first_element, "The same of elements; properties and sets follow")
-      ->check(numbers)
-      ->type_name("N");
-}
-
 void add_contact_flag(CLI::App& command, std::optional<double>& tolerance) {
   command
       .add_option(
@@ -459,11 +410,6 @@ void add_contact_flag(CLI::App& command, std::optional<double>& tolerance) {
           "one surface may be apart")
       ->check(positive)
       ->type_name("TOL");
-}
-
-void add_msh_version_flag(CLI::App& command, MshVersion& version) {
-  add_choice<MshVersion>(command, "--msh-version", version, {{"2.2", MshVersion::v2_2}, {"4.1", MshVersion::v4_1}},
-                         "Of Gmsh's format, if that is what is written; 4.1 is the default");
 }
 
 }  // namespace scan2fea::command

@@ -2,8 +2,6 @@
 // field.
 #pragma once
 
-#include "export/deck.hpp"
-#include "export/formats.hpp"
 #include "preproc/pipeline.hpp"
 
 #include <CLI/App.hpp>
@@ -34,12 +32,6 @@ struct CommonFlags {
 struct RelativeLength {
   double value = 0;
   bool relative = false;
-};
-
-// What lets several meshes go into one deck.
-struct NumberFlags {
-  std::string set_prefix;
-  Numbering numbers;
 };
 
 // "0.5" or, with the suffix, "0.1%" (returned as 0.001) or "1.6x". Throws CLI::ValidationError.
@@ -79,9 +71,6 @@ void add_feature_file_flags(CLI::App& command, FeatureFileFlags& flags);  // aft
 // For the stages that `options` has by then.
 void add_effort_flag(CLI::App& command, PipelineOptions& options);
 void add_tetrahedralize_flags(CLI::App& command, TetrahedralizeOptions& options, int& order);
-void add_deck_flag(CLI::App& command, std::optional<DeckKind>& deck);
-void add_number_flags(CLI::App& command, NumberFlags& flags);
 void add_contact_flag(CLI::App& command, std::optional<double>& tolerance);
-void add_msh_version_flag(CLI::App& command, MshVersion& version);
 
 }  // namespace scan2fea::command

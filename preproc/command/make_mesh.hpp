@@ -4,6 +4,7 @@
 
 #include "preproc/bodies/body_complex.hpp"
 #include "preproc/command/flags.hpp"
+#include "preproc/command/written_file_flags.hpp"
 
 namespace scan2fea::command {
 

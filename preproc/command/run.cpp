@@ -1,5 +1,6 @@
 #include "preproc/command/make_mesh.hpp"
 #include "preproc/command/sub_commands.hpp"
+#include "preproc/command/written_file_flags.hpp"
 #include "preproc/mesh/error.hpp"
 
 namespace scan2fea::command {

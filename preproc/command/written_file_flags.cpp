@@ -1,0 +1,45 @@
+#include "preproc/command/written_file_flags.hpp"
+
+#include "preproc/command/choice_flag.hpp"
+
+#include <CLI/Validators.hpp>
+
+#include <algorithm>
+#include <cctype>
+
+namespace scan2fea::command {
+
+void add_deck_flag(CLI::App& command, std::optional<DeckKind>& deck) {
+  add_choice<DeckKind>(
+      command, "--deck", deck, {{"static", DeckKind::static_analysis}, {"modal", DeckKind::modal}},
+      "Also write a deck that runs, beside an .inp for CalculiX, beside a .med or .mail for Code_Aster; "
+      "for sets named fixed and loaded");
+}
+
+void add_number_flags(CLI::App& command, NumberFlags& flags) {
+  const auto is_start_of_name = [](const std::string& text) {
+    const bool fits = !text.empty() && text.size() <= 20 && std::isalpha(static_cast<unsigned char>(text.front())) &&
+                      std::ranges::all_of(text, [](unsigned char c) { return std::isalnum(c) || c == '_'; });
+    return fits ? std::string()
+                : "'" + text + "' is no start of a name: a letter, then letters, digits and _, up to 20";
+  };
+  command.add_option("--set-prefix", flags.set_prefix, "Put before the names of all sets, as PIN_")
+      ->check(CLI::Validator(is_start_of_name, ""))
+      ->type_name("NAME");
+  const CLI::Range numbers(std::uint64_t{1}, std::uint64_t{1} << 40);
+  command
+      .add_option("--first-node", flags.numbers.first_node, "Number of the first node, where the format has numbers")
+      ->check(numbers)
+      ->type_name("N");
+  command
+      .add_option("--first-element", flags.numbers.first_element, "The same of elements; properties and sets follow")
+      ->check(numbers)
+      ->type_name("N");
+}
+
+void add_msh_version_flag(CLI::App& command, MshVersion& version) {
+  add_choice<MshVersion>(command, "--msh-version", version, {{"2.2", MshVersion::v2_2}, {"4.1", MshVersion::v4_1}},
+                         "Of Gmsh's format, if that is what is written; 4.1 is the default");
+}
+
+}  // namespace scan2fea::command
