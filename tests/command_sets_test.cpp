@@ -103,16 +103,21 @@ TEST_F(CommandSets, EndAtLinesOfTheMesh) {
 }
 
 TEST_F(CommandSets, OfAPartKeepTheirAreas) {
-  for (const double noise : {0.0, 0.0002}) {
-    const analytic::MachinedPart part = analytic::machined_part(1, noise);
+  // Of all bodies of one volume the round ones have the least area, so that a round bore of the volume of the scan's
+  // chords has less than they: by a sixth of the square of half their angle. On the smaller bore, of radius 4, that is
+  // 0.26 % where they are 1 long, and 0.07 % where they are half of it.
+  struct Scan {
+    double edge, noise, most_pct;
+  };
+  for (const auto& [edge, noise, most_pct] : {Scan{0.5, 0, 0.1}, Scan{1, 0, 0.26}, Scan{1, 0.0002, 0.26}}) {
+    const analytic::MachinedPart part = analytic::machined_part(edge, noise);
     write_surface(part.scan, path("part.ply"));
     const nlohmann::json report =
         run("'" + path("part.ply") +
             "' --order 2 --deviation 0.1% --set 'fixed=plane(z<0.5)' --set 'load=cylinder(z, r=6.5+-0.2, "
             "hole)' --set 'top=cylinder(x)' --set 'rim=plane(z>29.5)'");
-    // The scan's chords of a bore of radius 4 are 1 long: what is smooth and as far from them inside as outside has a
-    // quarter of a per cent less area.
-    for (const auto& set : report["sets"]) EXPECT_LT(std::abs(set["area_difference_pct"].get<double>()), 0.25) << set;
+    for (const auto& set : report["sets"])
+      EXPECT_LE(std::abs(set["area_difference_pct"].get<double>()), most_pct) << set;
     const double near = noise > 0 ? 0.15 : 0.05;
     expect_exactly("FIXED", [&](const Vec3& p) { return p.z() < near; });
   }

@@ -76,11 +76,15 @@ struct Equations {
         row[i] =
             d.shift.dot(change.shift) + d.tilt.dot(change.tilt) + d.radius * change.radius + d.second * change.second;
       }
-      matrix += weight * row * row.transpose();
-      right -= weight * d.distance * row;
+      for (Eigen::Index i = 0; i < row.size(); ++i) {
+        const double weighed = weight * row[i];
+        for (Eigen::Index j = 0; j <= i; ++j) matrix(i, j) += weighed * row[j];
+        right[i] -= weighed * d.distance;
+      }
       weights += weight;
       squares += weight * d.distance * d.distance;
     }
+    matrix.triangularView<Eigen::StrictlyUpper>() = matrix.transpose();
     fit.rms = weights > 0 ? std::sqrt(squares / weights) : 0;
   }
 

@@ -10,6 +10,8 @@
 #include <numeric>
 #include <optional>
 #include <queue>
+#include <set>
+#include <span>
 #include <utility>
 
 namespace scan2fea {
@@ -18,7 +20,9 @@ namespace {
 constexpr std::size_t patch_size = 20;
 // The first planes must be none of the strips that a rounding has room for: ten points a degree of freedom.
 constexpr std::size_t least_first_plane = 30;
-constexpr std::size_t most_first_seeds = 8000;
+constexpr std::size_t most_first_seeds = 8000, seeds_of_a_probe = 1000;
+// Points that decide a shape while it grows: more would move it by less than the noise.
+constexpr std::size_t most_fitted = 200;
 
 using Index = std::uint32_t;
 
@@ -70,30 +74,63 @@ class Grower {
   }
 
   ShapeSet run() {
+    if (cloud_.points.size() > most_first_seeds && !may_be_part()) return std::move(grown_);
     // Planes tell the directions in which axes run.
     accept_best_first(candidates(Sought::large_planes), 0);
-    // Strong shapes first, then those that pay on their axes.
-    constexpr double strong = 250;
-    bool any = true;
-    for (const double least_gain : {strong, 100.0, 0.0, 0.0}) {
-      if (!any || (least_gain < strong && !is_part())) break;
+    // Strong shapes first; then planes across the directions that they tell, before anything bent takes their points;
+    // then what pays on known axes.
+    struct Pass {
+      Sought sought;
+      double least_gain;
+    };
+    constexpr std::array passes{Pass{Sought::all, strong}, Pass{Sought::known_planes, 0}, Pass{Sought::usual, 100},
+                                Pass{Sought::all, 100},    Pass{Sought::usual, 0},        Pass{Sought::all, 0}};
+    for (const Pass& pass : passes) {
+      if (pass.least_gain < strong && !is_part()) break;
       compete_for_points(cloud_, neighbours_, noise_, 1, grown_);
       recount_costs();
       look_at_the_rest();
-      any = accept_best_first(candidates(Sought::all), least_gain) || least_gain > 0;
+      accept_best_first(candidates(pass.sought), pass.least_gain);
     }
     // A bound for parts of many small shapes: what is tried first is largest.
     constexpr int most_doubts = 50;
     int doubts = 0;
+    std::set<std::vector<bool>> in_vain;
     for (Index s = 0; s < grown_.shapes.size() && doubts < most_doubts && is_part(); ++s) {
       if (!is_doubtful(grown_.shapes[s])) continue;
+      std::vector<bool> doubted = doubtful_around(s);
+      if (in_vain.contains(doubted)) continue;
       ++doubts;
-      try_without(s);
+      if (try_without(doubted))
+        in_vain.clear();
+      else
+        in_vain.insert(std::move(doubted));
     }
     return std::move(grown_);
   }
 
  private:
+  // Some seeds tell an organic scan, on which all of them would be tried in vain. What they find is given up: the best
+  // of few is not the best.
+  bool may_be_part() {
+    const std::vector<Vec3> normals = normals_;
+    std::vector<Index> some;
+    for (std::size_t k = 0; k < seeds_of_a_probe; ++k)
+      some.push_back(static_cast<Index>(k * cloud_.points.size() / seeds_of_a_probe));
+    accept_best_first(candidates(Sought::large_planes, some), 0);
+    look_at_the_rest();
+    accept_best_first(candidates(Sought::all, some), strong);
+    const bool is = is_part();
+    if (is) {
+      grown_.shapes.clear();
+      std::ranges::fill(grown_.labels, no_shape);
+      recount_costs();
+    }
+    normals_ = normals;
+    rest_ = neighbours_;
+    return is;
+  }
+
   // Where strong shapes describe less than a fifth, or need many numbers for it, weak ones do not make a part of it,
   // and would take long to be found.
   bool is_part() const {
@@ -112,30 +149,41 @@ class Grower {
     return found.shape.kind != ShapeKind::cylinder || found.points.size() < few;
   }
 
-  // Takes the shape and its doubtful neighbours away and looks for planes across known directions first, then for
-  // cylinders and roundings, then for what else there is in their place. What makes the description shorter stays.
-  void try_without(Index doubted) {
+  // Takes these away and looks for planes across known directions first, then for cylinders and roundings, then for
+  // what else there is in their place. What makes the description shorter stays.
+  bool try_without(const std::vector<bool>& doubted) {
     const ShapeSet before = grown_;
     const std::vector<Vec3> normals_before = normals_;
     const double cost_before = total();
-    std::vector<bool> kept(grown_.shapes.size(), true);
-    kept[doubted] = false;
-    for (const Index i : before.shapes[doubted].points)
-      for (const Index j : neighbours_.of(i))
-        if (const Index label = before.labels[j]; label != no_shape && is_doubtful(before.shapes[label]))
-          kept[label] = false;
+    std::vector<bool> kept = doubted;
+    kept.flip();
+    std::vector<Index> freed;
+    for (Index i = 0; i < before.labels.size(); ++i)
+      if (before.labels[i] != no_shape && doubted[before.labels[i]]) freed.push_back(i);
     keep_shapes(grown_, kept);
     recount_costs();
     for (const Sought sought : {Sought::known_planes, Sought::usual, Sought::all}) {
       look_at_the_rest();
-      accept_best_first(candidates(sought), 0);
-      compete_for_points(cloud_, neighbours_, noise_, 1, grown_);
-      recount_costs();
+      accept_best_first(candidates(sought, freed), 0);
     }
-    if (total() < cost_before) return;
+    compete_for_points(cloud_, neighbours_, noise_, 1, grown_);
+    recount_costs();
+    if (total() < cost_before) return true;
     grown_ = before;
     normals_ = normals_before;
     recount_costs();
+    return false;
+  }
+
+  // The shape and its doubtful neighbours.
+  std::vector<bool> doubtful_around(Index shape) const {
+    std::vector<bool> doubted(grown_.shapes.size(), false);
+    doubted[shape] = true;
+    for (const Index i : grown_.shapes[shape].points)
+      for (const Index j : neighbours_.of(i))
+        if (const Index label = grown_.labels[j]; label != no_shape && is_doubtful(grown_.shapes[label]))
+          doubted[label] = true;
+    return doubted;
   }
 
   // Of the whole description.
@@ -162,10 +210,10 @@ class Grower {
   }
 
   // Flat places first: what grows there covers many other seeds.
-  std::vector<Index> ordered_seeds() const {
+  std::vector<Index> ordered_seeds(std::span<const Index> among) const {
     std::vector<double> bend(cloud_.points.size(), 0);
     std::vector<Index> seeds;
-    for (Index i = 0; i < bend.size(); ++i) {
+    for (const Index i : among) {
       if (grown_.labels[i] != no_shape || normals_[i].isZero() || rest_.of(i).size() < 4) continue;
       for (const Index j : rest_.of(i)) bend[i] += (normals_[j] - normals_[i]).squaredNorm();
       seeds.push_back(i);
@@ -214,18 +262,25 @@ class Grower {
   }
 
   std::vector<FoundShape> candidates(Sought sought) {
+    std::vector<Index> all(cloud_.points.size());
+    std::iota(all.begin(), all.end(), Index{0});
+    return candidates(sought, all);
+  }
+
+  std::vector<FoundShape> candidates(Sought sought, std::span<const Index> among) {
     std::array<std::vector<bool>, 5> covered;
     covered.fill(std::vector<bool>(cloud_.points.size(), false));
     const std::vector<KnownAxis> axes = known_axes();
     std::vector<bool> blended(cloud_.points.size(), false);
     std::vector<FoundShape> found;
     std::size_t tried = 0;
-    const std::vector<Index> seeds = ordered_seeds();
+    const std::vector<Index> seeds = ordered_seeds(among);
     // Where points are many, so are those of each shape that is strong enough to show that this is a part.
     const std::size_t stride = is_part() ? 1 : std::max<std::size_t>(1, seeds.size() / most_first_seeds);
     for (std::size_t k = 0; k < seeds.size(); k += stride) {
       const Index seed = seeds[k];
       if (++tried % 256 == 0 && interrupt_) interrupt_();
+      if (blended[seed] && std::ranges::all_of(covered, [&](const auto& of_kind) { return of_kind[seed]; })) continue;
       const std::vector<Index> patch = patch_of(seed);
       if (sought >= Sought::usual && !blended[seed])
         if (auto blend = grown_blend(seed, patch)) {
@@ -242,9 +297,9 @@ class Grower {
                          .relations = {}};
         if (grown.points.size() < 5) grown.points = patch;
         if (!grow(grown)) {
-          // What has spread far in vain would do so again from beside.
-          if (grown.points.size() > 3 * patch_size)
-            for (const Index i : patch) covered[kind][i] = true;
+          // From beside most of the patch is the same; and what has spread far in vain would do so again.
+          const std::size_t beside = grown.points.size() > 3 * patch_size ? patch.size() : patch_size / 3;
+          for (const Index i : std::span(patch).first(std::min(beside, patch.size()))) covered[kind][i] = true;
           continue;
         }
         if (sought == Sought::large_planes && grown.points.size() < least_first_plane) continue;
@@ -327,9 +382,9 @@ class Grower {
     constexpr int most_rounds = 12, steps_while_growing = 4;
     std::vector<Index> members = grown.points;
     for (int round = 0; round < most_rounds; ++round) {
-      const ShapeFit fit =
-          fit_shape(grown.shape, grown.freedom, cloud_.points, members, noise_.sigma, steps_while_growing);
-      if (!fit.found) return false;
+      if (!fit_shape(grown.shape, grown.freedom, cloud_.points, spread_over(members), noise_.sigma, steps_while_growing)
+               .found)
+        return false;
       if (members.size() > patch_size && rms_distance(cloud_, grown.shape, members) > 2 * noise_.sigma) {
         grown.points = std::move(members);
         return false;
@@ -344,6 +399,13 @@ class Grower {
     }
     grown.points = std::move(members);
     return rate(grown);
+  }
+
+  static std::vector<Index> spread_over(const std::vector<Index>& members) {
+    const std::size_t stride = 1 + members.size() / most_fitted;
+    std::vector<Index> some;
+    for (std::size_t k = 0; k < members.size(); k += stride) some.push_back(members[k]);
+    return some;
   }
 
   std::vector<Index> flooded(const Shape& shape, const std::vector<Index>& from, std::size_t most) {
@@ -422,6 +484,8 @@ class Grower {
     }
     grown_.shapes.push_back(std::move(grown));
   }
+
+  static constexpr double strong = 250;  // gain
 
   std::vector<Vec3>& normals_;
   const OrientedPoints cloud_;

@@ -72,6 +72,20 @@ bool is_bent(const OrientedPoints& cloud, const Shape& plane, Which which, const
   return explained > share_of_squares && explained / 3 > significant * (1 - explained) / (count - 6);
 }
 
+// Those whose neighbours all belong to it too; all, where these are few. Beside a tangent rounding a shape ends in
+// points that are as much the rounding's.
+std::vector<Index> inner_points(const Neighbours& neighbours, Which which) {
+  constexpr std::size_t ring = 6;
+  std::vector<Index> inner;
+  for (const Index i : which) {
+    const auto near = neighbours.of(i).first(std::min(ring, neighbours.of(i).size()));
+    if (std::ranges::all_of(near, [&](Index j) { return std::binary_search(which.begin(), which.end(), j); }))
+      inner.push_back(i);
+  }
+  if (3 * inner.size() < 2 * which.size()) inner.assign(which.begin(), which.end());
+  return inner;
+}
+
 // The root mean square distance from the points' own plane.
 double rms_from_plane(const OrientedPoints& cloud, Which which) {
   Vec3 middle = Vec3::Zero();
@@ -117,8 +131,10 @@ bool leaves_noise(const OrientedPoints& cloud, const Neighbours& neighbours, con
     return false;
   // Far below the noise residuals are rounding.
   if (rms < 0.5 * noise.sigma) return true;
-  return autocorrelation(neighbours, which, distance) < most_autocorrelation &&
-         !(shape.kind == ShapeKind::plane && is_bent(cloud, shape, which, distance));
+  const std::vector<Index> inner = inner_points(neighbours, which);
+  const std::vector<double> of_inner = distances(cloud, shape, inner);
+  return autocorrelation(neighbours, inner, of_inner) < most_autocorrelation &&
+         !(shape.kind == ShapeKind::plane && is_bent(cloud, shape, inner, of_inner));
 }
 
 }  // namespace scan2fea
