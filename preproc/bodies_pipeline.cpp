@@ -234,7 +234,7 @@ void BodiesPipeline::curve(StageRecord& record) {
         to.places[e] = tree.closest_within(middle, length / 4).value_or(ClosestPoint{0, middle, 0}).point;
       }
   }
-  describe({.curved = curve_mid_edge_nodes(mesh, to)}, InScan({}), record);
+  describe({.curved = curve_mid_edge_nodes(mesh, to)}, InScan({}, nullptr), record);
   for (std::size_t b = 0; b < made_bodies_.size(); ++b)
     made_bodies_[b].volume = volume_of(mesh, mesh.element_sets[b].members);
   measure_sets(result_);
@@ -251,6 +251,7 @@ PipelineResult run_pipeline_of_bodies(std::vector<Body> bodies, const JoinOption
   };
   if (bodies.size() < 2) refuse("fewer than two bodies", "run_pipeline");
   if (options.enrich) refuse("several bodies are not enriched", "scan2fea enrich for each of them, first");
+  if (options.symmetry) refuse("several bodies have no mirror plane in common", "--symmetry off");
   if (!options.simplify || options.simplify->method != SimplifyMethod::lattice)
     refuse("several bodies are simplified by the lattice method alone", "--method lattice");
   return BodiesPipeline(std::move(bodies), joining, options, progress, listener).run();

@@ -2,10 +2,13 @@
 
 #include "preproc/made_up.hpp"
 #include "preproc/mesh/error.hpp"
+#include "preproc/mesh/error_text.hpp"
+#include "preproc/mirrored_surface.hpp"
 #include "preproc/named_parts.hpp"
 #include "preproc/second_order.hpp"
 #include "preproc/stage_descriptions.hpp"
 #include "preproc/stage_log.hpp"
+#include "preproc/surface/fit/preserve_volume.hpp"
 #include "preproc/surface/kernel/canonical_frame.hpp"
 #include "preproc/surface/repair/solid_volume.hpp"
 #include "preproc/surface/simplification/voxel_options.hpp"
@@ -57,18 +60,26 @@ void note_left_out(const Progress& stage, const char* what, StageRecord& record,
   record.remarks.push_back("the time limit left out " + result.left_out.back());
 }
 
+// A scan that is one half of another.
+struct Half {
+  const HalfScan& scan;
+  const MirrorFrame& frame;
+};
+
 // The stages that work on a scan in its own frame, so that the mesh is the same wherever the scan lies. Boxes and balls
 // of the user's are no part of it: with them, and where only tetrahedra are made, it stays where it is.
 class MeshMaker {
  public:
   MeshMaker(const SurfaceMesh& scan, const std::optional<StairSteps>& stairs, const PipelineOptions& options,
-            PipelineResult& result, StageLog& log)
+            const Half* half, PipelineResult& result, StageLog& log)
       : scan_(scan),
         options_(options),
         simplification_(options.simplify.value_or(SimplifyOptions{})),
         tetrahedralization_(options.tetrahedralize.value_or(TetrahedralizeOptions{})),
         result_(result),
-        log_(log) {
+        log_(log),
+        half_(half),
+        in_scan_(frame_, half ? &half->frame : nullptr) {
     place();
     adapt(stairs);
   }
@@ -80,6 +91,7 @@ class MeshMaker {
   void take_lengths_to_frame();
   void adapt(std::optional<StairSteps> stairs);
   void simplify(const Progress& progress);
+  void put_cut_onto_plane();
   void tetrahedralize(const Progress& progress);
   void curve(const Progress& progress);
   void bring_back();
@@ -96,7 +108,8 @@ class MeshMaker {
   std::optional<Simplification> search_;
   std::string voxel_remark_;
   FilledSurface made_;
-  InScan in_scan_{frame_};
+  const Half* half_;
+  InScan in_scan_;
 };
 
 void MeshMaker::place() {
@@ -135,6 +148,7 @@ void MeshMaker::adapt(std::optional<StairSteps> stairs) {
 FilledSurface MeshMaker::run(const Progress& progress) {
   try {
     simplify(progress);
+    if (half_ && search_) put_cut_onto_plane();
     if (options_.tetrahedralize) tetrahedralize(progress);
     if (options_.tetrahedralize && options_.order == 2) curve(progress);
   } catch (Error& error) {
@@ -164,6 +178,21 @@ void MeshMaker::simplify(const Progress& progress) {
   });
 }
 
+// The cut is to be shared by both sides: the few vertices along its border that a noisy scan has drawn off go back.
+void MeshMaker::put_cut_onto_plane() {
+  SurfaceMesh on_half = made_.surface;
+  if (frame_) frame_->bring_back(on_half.vertices, scan_);
+  const std::vector<bool> of_cut = vertices_of_cut(on_half, half_->scan, made_.simplified.line_edges);
+  VertexConstraints constraints(of_cut.size(), VertexConstraint::free);
+  for (std::size_t v = 0; v < of_cut.size(); ++v) {
+    if (!of_cut[v]) continue;
+    constraints[v] = VertexConstraint::fixed;
+    on_half.vertices[v].x() = 0;
+    made_.surface.vertices[v] = frame_ ? frame_->to_frame(on_half.vertices[v]) : on_half.vertices[v];
+  }
+  preserve_volume_clear(made_.surface, scan(), constraints);
+}
+
 void MeshMaker::tetrahedralize(const Progress& progress) {
   if (search_) checked_for_solvers(made_.surface, nullptr, scan(), options_);  // else the mesher fails on it
   if (simplification_.limits.elements_across) need_nodes_in_walls(tetrahedralization_);
@@ -173,7 +202,8 @@ void MeshMaker::tetrahedralize(const Progress& progress) {
     describe(made_.filled, in_scan_, record);
     note_left_out(in_time, "better tetrahedra", record, result_);
   });
-  if (!search_ || !worth_renewing(simplification_, made_)) return;
+  // Vertices of the surface would move, and with them the cut.
+  if (half_ || !search_ || !worth_renewing(simplification_, made_)) return;
   log_.run("renewal", [&](StageRecord& record) {
     const Progress in_time = progress.until(progress.end());
     RenewalResult renewal = renew_where_poor(*search_, simplification_, tetrahedralization_, std::move(made_), in_time);
@@ -187,7 +217,7 @@ void MeshMaker::curve(const Progress& progress) {
   log_.run("second order", [&](StageRecord& record) {
     SecondOrderResult curved;
     const Progress in_time = progress.until(progress.end());
-    if (search_ && made_.filled.boundary_parent.empty())
+    if (search_ && !half_ && made_.filled.boundary_parent.empty())
       in_time.improve([&](const Progress& p) { curved = make_second_order(*search_, tetrahedralization_, made_, p); });
     if (made_.filled.mesh.order() == 1) curved.curved = curve_on_scan(made_.filled.mesh, scan(), in_time);
     describe(curved, in_scan_, record);
@@ -202,6 +232,72 @@ void MeshMaker::bring_back() {
   frame_->bring_back(made_.simplified.features.points, scan_);
   made_.simplified.largest_deviation *= frame_->unit();
   made_.simplified.aimed_deviation *= frame_->unit();
+}
+
+// Of the half with its cut, so that the whole has what was asked for.
+TargetSize size_of_half(const TargetSize& size, const SurfaceMesh& scan, const HalfScan& half) {
+  const auto of_whole = [&](double faces) {
+    return FaceCount{static_cast<std::size_t>(std::lround(faces / 2 / (1 - half.cut_share)))};
+  };
+  if (const auto* count = std::get_if<FaceCount>(&size)) return of_whole(static_cast<double>(count->faces));
+  if (const auto* ratio = std::get_if<FaceRatio>(&size))
+    return of_whole(ratio->of_input * static_cast<double>(scan.triangles.size()));
+  return in_model_units(size, bounding_box(scan.vertices));
+}
+
+void add_lines(const FeatureLines& lines, FeatureLines& to) {
+  const auto first = static_cast<std::uint32_t>(to.points.size());
+  to.points.insert(to.points.end(), lines.points.begin(), lines.points.end());
+  for (const auto& [a, b] : lines.segments) to.segments.push_back({first + a, first + b});
+}
+
+MirrorPlane mirror_plane_of(const SurfaceMesh& scan, const SymmetryOptions& options, const Progress& progress) {
+  const MirrorPlane plane = find_mirror_plane(scan, options.axis, progress);
+  const MirrorLimits limits = mirror_limits(scan);
+  const bool is_near = plane.rms_distance <= limits.rms;
+  if (is_near && plane.largest_distance <= limits.largest) return plane;
+  throw NotMeshable(
+      {.what = options.axis ? "the scan has no mirror plane across this axis" : "the scan has no mirror plane",
+       .where = {},
+       .value = is_near ? "its mirror image is " + error_text(plane.largest_distance) + " from it"
+                        : "its mirror image is " + error_text(plane.rms_distance) + " from it in the mean",
+       .limit = error_text(is_near ? limits.largest : limits.rms),
+       .advice = "--symmetry off",
+       .at = plane.farthest});
+}
+
+FilledSurface make_by_half(const SurfaceMesh& scan, const std::optional<StairSteps>& stairs, PipelineOptions options,
+                           const Progress& progress, PipelineResult& result, StageLog& log) {
+  if (options.simplify && !(options.simplify->limits.boxes.empty() && options.simplify->limits.balls.empty()))
+    throw WrongUsage({.what = "edge lengths in boxes and balls have two sides, and one of them is mirrored",
+                      .where = {},
+                      .value = {},
+                      .limit = {},
+                      .advice = "--symmetry off, or no --size-box and --size-ball"});
+  std::optional<MirrorFrame> frame;
+  HalfScan half;
+  log.run("symmetry", [&](StageRecord& record) {
+    const MirrorPlane plane = mirror_plane_of(scan, *options.symmetry, progress);
+    frame.emplace(plane);
+    half = halve(scan, *frame);
+    describe(plane, record);
+  });
+  if (options.simplify) {
+    options.simplify->size = size_of_half(options.simplify->size, scan, half);
+    options.simplify->kept_lines = lines_on_half(options.simplify->kept_lines, *frame);
+    add_lines(half.cut_lines, options.simplify->kept_lines);
+    if (auto& given = options.simplify->given_features) given = lines_on_half(*given, *frame);
+  }
+  const Half of_scan{half, *frame};
+  FilledSurface made = MeshMaker(half.mesh, stairs, options, &of_scan, result, log).run(progress);
+  MirroredSurface whole;
+  log.run("mirror", [&](StageRecord& record) {
+    whole = mirrored(std::move(made), *frame);
+    record.changes = {{"faces_after", static_cast<double>(whole.made.surface.triangles.size())},
+                      {"tetrahedra", static_cast<double>(whole.made.filled.mesh.tetrahedra.size())},
+                      {"nodes_on_plane", static_cast<double>(whole.nodes_on_plane)}};
+  });
+  return std::move(whole.made);
 }
 
 // Restored creases are exact, and those that would be found beside them are not: they are kept as far as triangles of
@@ -271,7 +367,8 @@ void run_stages(SurfaceMesh scan, const SurfaceMesh* seen, const PipelineOptions
                               chain.simplify, record);
     });
   const SurfaceMesh& start = selected ? selected->mesh : options.enrich ? enriched : result.scan;
-  FilledSurface made = MeshMaker(start, stairs, chain, result, log).run(progress);
+  FilledSurface made = options.symmetry ? make_by_half(start, stairs, chain, progress, result, log)
+                                        : MeshMaker(start, stairs, chain, nullptr, result, log).run(progress);
   if (options.simplify || options.tetrahedralize)
     result.weak_places = checked_for_solvers(made.surface, options.tetrahedralize ? &made.filled.mesh : nullptr,
                                              result.reference(), options);

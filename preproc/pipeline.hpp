@@ -24,12 +24,19 @@
 
 namespace scan2fea {
 
+// One half of a part is meshed and mirrored.
+struct SymmetryOptions {
+  std::optional<int> axis = {};  // across this coordinate axis, 0 to 2; without, the best plane that there is
+  bool operator==(const SymmetryOptions&) const = default;
+};
+
 // A stage that is not asked for is left out; its input then goes on as it is.
 struct PipelineOptions {
   ReconstructOptions reconstruct;  // of a cloud
   std::optional<RepairOptions> repair = RepairOptions{};
   std::optional<EnrichOptions> enrich;               // not by default: a scan that is dense enough needs none
   std::optional<NamedSelection> enrich_domain = {};  // instead of its own domain: the vertices of what is selected
+  std::optional<SymmetryOptions> symmetry = {};
   std::optional<SimplifyOptions> simplify = SimplifyOptions{};
   std::optional<TetrahedralizeOptions> tetrahedralize = TetrahedralizeOptions{};
   int order = 1;  // 1: 4-node tetrahedra, 2: 10-node tetrahedra

@@ -115,6 +115,12 @@ void describe(const RepairResult& result, StageRecord& record) {
         record.remarks.push_back(describe(kind, group));
 }
 
+void describe(const MirrorPlane& plane, StageRecord& record) {
+  record.changes = {{"normal_x", plane.normal.x()},       {"normal_y", plane.normal.y()},
+                    {"normal_z", plane.normal.z()},       {"offset", plane.offset},
+                    {"rms_distance", plane.rms_distance}, {"largest_distance", plane.largest_distance}};
+}
+
 void describe(const EnrichResult& result, StageRecord& record) {
   record.changes = {{"sampling_radius", result.sampling_radius},
                     {"vertices_added", static_cast<double>(result.added)},

@@ -4,6 +4,7 @@
 #include "preproc/pipeline.hpp"
 #include "preproc/second_order.hpp"
 #include "preproc/surface/kernel/canonical_frame.hpp"
+#include "preproc/symmetry/half_scan.hpp"
 #include "preproc/tetrahedra_search.hpp"
 
 #include <optional>
@@ -13,18 +14,24 @@ namespace scan2fea {
 // Of what is made in another frame, places and lengths in the scan's.
 class InScan {
  public:
-  explicit InScan(const std::optional<CanonicalFrame>& frame) : frame_(frame) {}
-  Vec3 place(const Vec3& p) const { return frame_ ? frame_->place_of(p) : p; }
+  // `mirror`: where the scan is the half of another one; null where it is not.
+  InScan(const std::optional<CanonicalFrame>& frame, const MirrorFrame* mirror) : frame_(frame), mirror_(mirror) {}
+  Vec3 place(const Vec3& p) const {
+    const Vec3 in_scan = frame_ ? frame_->place_of(p) : p;
+    return mirror_ ? mirror_->from_frame(in_scan) : in_scan;
+  }
   double unit() const { return frame_ ? frame_->unit() : 1; }
 
  private:
   const std::optional<CanonicalFrame>& frame_;
+  const MirrorFrame* mirror_;
 };
 
 // Each fills `changes` and `remarks` of the record.
 void describe(const ReconstructResult& result, StageRecord& record);
 void describe(const RepairResult& result, StageRecord& record);
 void describe(const EnrichResult& result, StageRecord& record);
+void describe(const MirrorPlane& plane, StageRecord& record);
 void describe(const SimplifyResult& result, const InScan& in_scan, StageRecord& record);
 void describe(const TetrahedralizeResult& result, const InScan& in_scan, StageRecord& record);
 void describe(const RenewalResult& renewal, const InScan& in_scan, StageRecord& record);

@@ -363,6 +363,13 @@ void add_face_flags(CLI::App& command, bool& name_faces, std::optional<Idealise>
       "default");
 }
 
+void add_symmetry_flag(CLI::App& command, std::optional<SymmetryOptions>& symmetry) {
+  add_choice<std::optional<SymmetryOptions>>(
+      command, "--symmetry", symmetry,
+      {{"off", std::nullopt}, {"auto", SymmetryOptions{}}, {"x", {{0}}}, {"y", {{1}}}, {"z", {{2}}}},
+      "Mesh one half of a part and mirror it: across the plane that is found, or one across this axis; off by default");
+}
+
 void add_effort_flag(CLI::App& command, PipelineOptions& options) {
   const Choices<Effort> efforts{{"low", Effort::low}, {"normal", Effort::normal}, {"high", Effort::high}};
   command

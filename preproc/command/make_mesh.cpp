@@ -247,6 +247,7 @@ void add_surface_flags(CLI::App& command, MakeMeshJob& job) {
   add_feature_file_flags(command, job.features);
   add_set_flag(command, job.sets);
   add_face_flags(command, job.pipeline.name_faces, job.pipeline.idealise);
+  add_symmetry_flag(command, job.pipeline.symmetry);
   add_effort_flag(command, job.pipeline);
 }
 
