@@ -10,6 +10,7 @@
 #include "preproc/stage_log.hpp"
 #include "preproc/surface/fit/preserve_volume.hpp"
 #include "preproc/surface/kernel/canonical_frame.hpp"
+#include "preproc/surface/kernel/cut_surface.hpp"
 #include "preproc/surface/repair/solid_volume.hpp"
 #include "preproc/surface/simplification/voxel_options.hpp"
 #include "preproc/tetrahedra_search.hpp"
@@ -266,14 +267,23 @@ MirrorPlane mirror_plane_of(const SurfaceMesh& scan, const SymmetryOptions& opti
        .at = plane.farthest});
 }
 
+void require_mirrorable(const SurfaceMesh& scan, const PipelineOptions& options) {
+  const auto refuse = [](const char* what, const char* advice) {
+    throw WrongUsage({.what = what, .where = {}, .value = {}, .limit = {}, .advice = advice});
+  };
+  if (!boundary_edges(scan).empty())
+    refuse("half of an open surface cannot be closed along its mirror plane", "--holes close, or --symmetry off");
+  if (!options.simplify) return;
+  if (options.simplify->method != SimplifyMethod::lattice)
+    refuse("the collapse keeps no mirror plane", "--method lattice, or --symmetry off");
+  if (!options.simplify->limits.boxes.empty() || !options.simplify->limits.balls.empty())
+    refuse("edge lengths in boxes and balls have two sides, and one of them is mirrored",
+           "--symmetry off, or no --size-box and --size-ball");
+}
+
 FilledSurface make_by_half(const SurfaceMesh& scan, const std::optional<StairSteps>& stairs, PipelineOptions options,
                            const Progress& progress, PipelineResult& result, StageLog& log) {
-  if (options.simplify && !(options.simplify->limits.boxes.empty() && options.simplify->limits.balls.empty()))
-    throw WrongUsage({.what = "edge lengths in boxes and balls have two sides, and one of them is mirrored",
-                      .where = {},
-                      .value = {},
-                      .limit = {},
-                      .advice = "--symmetry off, or no --size-box and --size-ball"});
+  require_mirrorable(scan, options);
   std::optional<MirrorFrame> frame;
   HalfScan half;
   log.run("symmetry", [&](StageRecord& record) {

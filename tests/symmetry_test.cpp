@@ -148,11 +148,27 @@ TEST(MirroredMesh, IsRefusedOfWhatIsNotSymmetric) {
   }
 }
 
-TEST(MirroredMesh, HasNoBoxesOfEdgeLengths) {
+TEST(MirroredMesh, OfTwinBodiesSharesNothing) {
+  const SurfaceMesh body = analytic::box({4, 3, 2}, 0.5);
+  PipelineOptions options;
+  options.symmetry = SymmetryOptions{0};
+  const PipelineResult result =
+      run_pipeline(analytic::join(analytic::moved(body, {1, 0, 0}), analytic::moved(body, {-5, 0, 0})), options);
+  EXPECT_NEAR(total_volume(*result.volume_mesh), 48, 1e-9);
+  for (const Vec3& p : result.volume_mesh->nodes) EXPECT_GE(std::abs(p.x()), 1 - 1e-9);
+}
+
+TEST(MirroredMesh, OfWhatHasNoHalfIsRefused) {
   PipelineOptions options;
   options.symmetry = SymmetryOptions{0};
   options.simplify->limits.balls.emplace_back();
   EXPECT_THROW(run_pipeline(analytic::box({4, 3, 2}, 0.25), options), WrongUsage);
+  options.simplify = SimplifyOptions{.method = SimplifyMethod::collapse};
+  EXPECT_THROW(run_pipeline(analytic::box({4, 3, 2}, 0.25), options), WrongUsage);
+  options.simplify = SimplifyOptions{};
+  options.repair.reset();
+  options.tetrahedralize.reset();
+  EXPECT_THROW(run_pipeline(analytic::sheet(4, 3, 0.25), options), WrongUsage);
 }
 
 }  // namespace

@@ -42,6 +42,7 @@ void mark_inside(Triangulation& triangulation) {
 }  // namespace
 
 std::vector<Triangle> fill_outline(const std::vector<Vec3>& vertices, std::span<const FeatureEdge> outline) {
+  if (outline.empty()) return {};
   Triangulation triangulation;
   std::map<std::uint32_t, Triangulation::Vertex_handle> placed;
   const auto place = [&](std::uint32_t v) {
