@@ -49,6 +49,10 @@ bool writes_surface(const std::filesystem::path& file);
 std::string known_volume_formats();
 std::string known_surface_formats_to_write();
 
+// Of the first element of a file that is written with these numbers, or read, where its elements are a row: 0 in
+// formats without numbers of their own, in which viewers count from 0.
+std::uint64_t first_element_of(const std::filesystem::path& file, const Numbering& numbers = {});
+
 // Writes the mesh, and notes what of it the format cannot hold. Throws WrongUsage for an extension that is not one of
 // the format's kind, IoError where the file cannot be written; an earlier file is then untouched.
 Notes write_volume(const TetMesh& mesh, const std::filesystem::path& file, const FileOptions& options = {});

@@ -15,6 +15,8 @@ namespace scan2fea {
 struct MeshFile {
   std::variant<NamedSurface, TetMesh> mesh;
   std::vector<std::string> warnings;  // what of the file is not in `mesh`, one line each
+  // Per tetrahedron, or triangle, its number in the file, where these are no row from 1 on.
+  std::vector<std::uint32_t> element_numbers = {};
 
   bool is_volume() const { return std::holds_alternative<TetMesh>(mesh); }
 };

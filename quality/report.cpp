@@ -185,7 +185,7 @@ SurfaceFigures measure_surface(const SurfaceMesh& mesh) {
 }
 
 Json to_json(const Report& report) {
-  Json json{{"schema", "scan2fea/1"}, {"input", report.input}};
+  Json json{{"schema", report_schema}, {"input", report.input}};
   if (report.surface) json["surface"] = surface_json(*report.surface);
   if (report.deviation) json["deviation"] = deviation_json(*report.deviation);
   if (report.points) json["points"] = points_json(*report.points);

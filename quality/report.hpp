@@ -1,6 +1,6 @@
 // The figures of a mesh as one JSON object, the contract of `check --json`, and as a table for people.
 //
-// Schema "scan2fea/1":
+// Schema "scan2fea/2", which report.schema.json tells in full:
 //   schema, input,
 //   surface {vertices, faces, edge_ratio {mean, p50, p95, p99, max}, min_angle_deg {mean, min}, max_angle_deg,
 //            radius_ratio {mean, min}, degenerate, closed, manifold, oriented, self_intersections, unused_vertices,
@@ -16,6 +16,8 @@
 //   bodies [{name, volume, volume_of_scan, volume_difference_pct, tetrahedra}],
 //   contacts [{bodies, set, triangles_closed, largest_gap, largest_overlap, tolerance, place}],
 //   regions [{name, area, faces}], gates [{name, operator, value, limit, pass}]
+// The command adds where it comes from (program, command, inputs, output, size, reference) and single elements
+// (histograms, worst_elements).
 // Of a volume mesh of second order, volumes, areas, deviation, points and volume_mesh are those of the curved elements
 // (see TetShape); what is said of triangles, edge ratios and angles, is of their corners.
 // A section that was not measured is left out; a figure that has no meaning, as the genus of an open surface, is null.
@@ -35,6 +37,9 @@
 #include <vector>
 
 namespace scan2fea {
+
+// Rises with every change of the format; tests/check_report_format.py holds it against report.schema.json.
+inline constexpr const char* report_schema = "scan2fea/2";
 
 using Json = nlohmann::ordered_json;  // keys stay in the order above
 

@@ -256,7 +256,7 @@ TEST_F(Command, ExistingReportsNeedForce) {
     EXPECT_NE(contents(file), "precious");
   };
   expect_refused_without_force(json, path("check.json"));
-  expect_refused_without_force(report, path("a/report/report.txt"));
+  expect_refused_without_force(report, path("a/report/report.html"));
 }
 
 TEST_F(Command, OutputsAreDifferentFilesAndNoInputs) {

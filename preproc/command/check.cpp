@@ -1,14 +1,13 @@
 #include "export/formats.hpp"
 #include "export/units.hpp"
 #include "preproc/command/figures.hpp"
+#include "preproc/command/loaded_mesh.hpp"
 #include "preproc/command/output_files.hpp"
 #include "preproc/command/sub_commands.hpp"
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/error_text.hpp"
-#include "preproc/mesh/read_cloud.hpp"
 #include "preproc/surface/features/feature_file.hpp"
 #include "preproc/surface/repair/openings.hpp"
-#include "quality/curved_surface.hpp"
 
 #include <algorithm>
 
@@ -20,43 +19,6 @@ struct CheckFlags {
   std::optional<std::filesystem::path> reference;
   std::optional<std::filesystem::path> leaks;
 };
-
-// The surface, or a volume mesh's boundary.
-struct Loaded {
-  SurfaceMesh surface;
-  std::optional<TetMesh> volume_mesh;
-  std::string unit;  // that the file says; empty where it says none
-};
-
-Loaded load(const std::filesystem::path& file) {
-  MeshFile read = read_mesh(file);
-  if (auto* surface = std::get_if<NamedSurface>(&read.mesh))
-    return {.surface = std::move(surface->mesh), .volume_mesh = {}, .unit = std::move(surface->unit)};
-  Loaded loaded;
-  loaded.volume_mesh = std::get<TetMesh>(std::move(read.mesh));
-  loaded.surface = boundary_surface(*loaded.volume_mesh);
-  loaded.unit = loaded.volume_mesh->unit;
-  return loaded;
-}
-
-// A cloud tells distances of its points only. Of a mesh of second order the surface is curved, in flat pieces, and the
-// volume is told.
-void load_reference(const std::filesystem::path& file, std::optional<SurfaceMesh>& surface,
-                    std::optional<PointCloud>& cloud, std::optional<double>& volume) {
-  if (find_format(file) != nullptr && find_format(file)->volume) {
-    Loaded loaded = load(file);
-    const bool is_curved = loaded.volume_mesh && loaded.volume_mesh->order() == 2;
-    volume = is_curved ? std::optional(total_volume(*loaded.volume_mesh)) : std::nullopt;
-    const double tolerance = flat_enough_of_diagonal * bounding_box(loaded.surface.vertices).diagonal();
-    surface = is_curved ? flat_pieces(*loaded.volume_mesh, tolerance).mesh : std::move(loaded.surface);
-    return;
-  }
-  Scan scan = read_scan(file);
-  if (auto* points = std::get_if<PointCloud>(&scan))
-    cloud = std::move(*points);
-  else
-    surface = std::move(std::get<SurfaceMesh>(scan));
-}
 
 // The openings' borders, for viewers, and the largest as lines of text.
 void tell_leaks(const std::vector<Opening>& openings, ProgressDisplay& display) {
@@ -80,6 +42,13 @@ FeatureLines lines_of(const std::vector<Opening>& openings) {
   return lines;
 }
 
+std::vector<ReadFile> read_files(const CheckFlags& flags) {
+  std::vector<ReadFile> files{{"mesh", flags.common.input}};
+  if (flags.reference) files.push_back({"reference", *flags.reference});
+  if (flags.common.config) files.push_back({"configuration", *flags.common.config});
+  return files;
+}
+
 int check(CheckFlags flags) {
   const std::vector<Gate> gates = parse_gates(flags.common);
   std::vector<std::filesystem::path> inputs = inputs_of(flags.common);
@@ -88,27 +57,18 @@ int check(CheckFlags flags) {
   if (flags.leaks) files.push_back({*flags.leaks});
   require_writable(files, inputs, flags.common.force);
   ProgressDisplay display(flags.common.quiet);
-  const Loaded mesh = load(flags.common.input);
+  const LoadedMesh mesh = load_mesh(flags.common.input);
   const std::string unit = settled_unit(mesh.unit, flags.common.unit, flags.common.input.string());
   if (!unit.empty()) flags.common.unit = unit;
   display.line(describe_input(mesh.surface, flags.common));
-  std::optional<SurfaceMesh> reference;
-  std::optional<PointCloud> cloud;
-  std::optional<double> volume;
-  if (flags.reference) load_reference(*flags.reference, reference, cloud, volume);
-  const Subject subject{.surface = &mesh.surface,
-                        .reference = reference ? &*reference : nullptr,
-                        .solid_volume = volume,
-                        .volume_mesh = mesh.volume_mesh ? &*mesh.volume_mesh : nullptr,
-                        .stages = nullptr,
-                        .repaired = nullptr,
-                        .cloud = cloud ? &*cloud : nullptr,
-                        .outliers = nullptr,
-                        .primitives = nullptr,
-                        .sets = nullptr,
-                        .faces = nullptr,
-                        .bodies = nullptr,
-                        .contacts = nullptr};
+  LoadedReference reference;
+  if (flags.reference) reference = load_reference(*flags.reference);
+  Subject subject = subject_of(mesh);
+  subject.reference = reference.surface ? &*reference.surface : nullptr;
+  subject.cloud = reference.cloud ? &*reference.cloud : nullptr;
+  subject.solid_volume = reference.solid_volume;
+  subject.inputs = read_files(flags);
+  subject.first_element = first_element_of(flags.common.input);
   StagedOutputs outputs;
   if (flags.leaks) {
     const std::vector<Opening> openings = find_openings(mesh.surface);

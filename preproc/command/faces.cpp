@@ -43,6 +43,21 @@ Json given_sets(const NamedSurface& surface) {
   return list;
 }
 
+std::vector<NamedSet> sets_of(const SurfaceFaces& faces) {
+  std::vector<NamedSet> sets;
+  for (const SurfaceFace& face : faces.list) sets.push_back(named_set(face.name, face.triangles));
+  return sets;
+}
+
+Subject subject_of(const SurfaceMesh& mesh, const std::vector<NamedSet>& sets, const CommonFlags& flags) {
+  Subject subject;
+  subject.surface = &mesh;
+  subject.face_sets = &sets;
+  subject.inputs = {{"scan", flags.input}};
+  subject.first_element = 0;
+  return subject;
+}
+
 int list_faces(FacesFlags flags) {
   if (flags.output && !is_face_file(*flags.output))
     throw WrongUsage({.what = "unknown format of the output",
@@ -69,13 +84,14 @@ int list_faces(FacesFlags flags) {
                   set["name"].get_ref<const std::string&>().c_str(), set["area"].get<double>());
     table += line;
   }
-  Json report{{"schema", "scan2fea/1"}, {"input", flags.common.input.string()}};
+  Json report{{"schema", report_schema}, {"input", flags.common.input.string()}};
   if (flags.common.unit) report["unit"] = *flags.common.unit;
   report["noise"] = faces.noise;
   report["faces"] = face_list(faces);
   report["sets"] = given;
-  if (flags.common.json) outputs.add_json(report, *flags.common.json);
-  if (flags.common.report) outputs.add_report(report, table, *flags.common.report);
+  report["gates"] = Json::array();
+  const std::vector<NamedSet> sets = sets_of(faces);
+  write_files(report, subject_of(mesh, sets, flags.common), flags.common, outputs);
   if (flags.output) outputs.add(*flags.output, face_file(mesh, faces, *flags.output));
   if (!flags.common.quiet && flags.common.json != "-") write_to_stdout(table);
   outputs.commit();

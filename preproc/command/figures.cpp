@@ -1,5 +1,6 @@
 #include "preproc/command/figures.hpp"
 
+#include "preproc/command/element_figures.hpp"
 #include "preproc/command/face_files.hpp"
 #include "preproc/surface/repair/solid_volume.hpp"
 #include "quality/curved_surface.hpp"
@@ -118,6 +119,42 @@ Json sets_of(const TetMesh& mesh) {
   return list;
 }
 
+Json extent_of(const std::vector<Vec3>& points) {
+  const BoundingBox box = bounding_box(points);
+  const Vec3 size = box.high - box.low;
+  return {{"box", {size.x(), size.y(), size.z()}}, {"diagonal", box.diagonal()}};
+}
+
+// What a file of figures says beside those that a terminal is told.
+void add_origin(const Subject& subject, Json& report) {
+  report["program"] = program_json();
+  report["command"] = command_json();
+  report["inputs"] = inputs_json(subject.inputs);
+  if (subject.output) report["output"] = subject.output->string();
+  if (subject.surface != nullptr) report["size"] = extent_of(subject.surface->vertices);
+  if (subject.reference == nullptr) return;
+  report["reference"] = extent_of(subject.reference->vertices);
+  report["reference"]["vertices"] = subject.reference->vertices.size();
+  report["reference"]["triangles"] = subject.reference->triangles.size();
+}
+
+std::string size_text(const std::vector<Vec3>& points, const CommonFlags& flags) {
+  const BoundingBox box = bounding_box(points);
+  const Vec3 size = box.high - box.low;
+  char text[96];
+  std::snprintf(text, sizeof text, "%.6g x %.6g x %.6g ", size.x(), size.y(), size.z());
+  return text + flags.unit.value_or("(no --unit given)");
+}
+
+std::string describe(const GateResult& result) {
+  char text[160];
+  std::snprintf(text, sizeof text, "gate failed: %s is %.6g (limit: %.6g)", result.gate.name.c_str(), result.value,
+                result.gate.limit);
+  return text;
+}
+
+}  // namespace
+
 Json measure(const Subject& subject, const CommonFlags& flags) {
   Report report;
   report.input = flags.input.string();
@@ -158,26 +195,10 @@ Json measure(const Subject& subject, const CommonFlags& flags) {
     json["bodies"] = to_json(*subject.bodies);
     json["contacts"] = to_json(*subject.contacts);
   }
+  if (!subject.compared.is_null()) json["compared"] = subject.compared;
   if (subject.stages != nullptr) json["stages"] = to_json(*subject.stages);
   return json;
 }
-
-std::string size_text(const std::vector<Vec3>& points, const CommonFlags& flags) {
-  const BoundingBox box = bounding_box(points);
-  const Vec3 size = box.high - box.low;
-  char text[96];
-  std::snprintf(text, sizeof text, "%.6g x %.6g x %.6g ", size.x(), size.y(), size.z());
-  return text + flags.unit.value_or("(no --unit given)");
-}
-
-std::string describe(const GateResult& result) {
-  char text[160];
-  std::snprintf(text, sizeof text, "gate failed: %s is %.6g (limit: %.6g)", result.gate.name.c_str(), result.value,
-                result.gate.limit);
-  return text;
-}
-
-}  // namespace
 
 std::vector<Gate> parse_gates(const CommonFlags& flags) {
   std::vector<Gate> gates;
@@ -185,13 +206,24 @@ std::vector<Gate> parse_gates(const CommonFlags& flags) {
   return gates;
 }
 
+void write_files(Json& report, const Subject& subject, const CommonFlags& flags, StagedOutputs& outputs) {
+  if (!flags.json && !flags.report) return;
+  add_origin(subject, report);
+  ElementFigures elements;
+  if (subject.surface != nullptr) {
+    elements = measure_elements(subject);
+    add_to_json(elements, subject, report);
+  }
+  if (flags.json) outputs.add_json(report, *flags.json);
+  if (flags.report) outputs.add_report(report, page_of(report, elements, subject), flags);
+}
+
 bool report_figures(const Subject& subject, const CommonFlags& flags, const std::vector<Gate>& gates,
                     ProgressDisplay& display, StagedOutputs& outputs) {
   Json report = measure(subject, flags);
   const std::vector<GateResult> results = evaluate_gates(gates, report);
   report["gates"] = scan2fea::to_json(results);
-  if (flags.json) outputs.add_json(report, *flags.json);
-  if (flags.report) outputs.add_report(report, to_table(report), *flags.report);
+  write_files(report, subject, flags, outputs);
   // With the JSON on stdout the table goes where messages go.
   if (!flags.quiet) {
     if (flags.json == "-")

@@ -4,6 +4,7 @@
 #include "preproc/command/flags.hpp"
 #include "preproc/command/output_files.hpp"
 #include "preproc/command/progress_display.hpp"
+#include "preproc/command/provenance.hpp"
 #include "quality/gates.hpp"
 #include "quality/report.hpp"
 
@@ -28,11 +29,24 @@ struct Subject {
   const SurfaceFaces* faces = nullptr;  // of the scan
   const std::vector<MadeBody>* bodies = nullptr;
   const std::vector<MadeContact>* contacts = nullptr;
+  const std::vector<NamedSet>* face_sets = nullptr;  // of the surface; a volume mesh has its own
+  std::vector<ReadFile> inputs = {};
+  std::optional<std::filesystem::path> output = {};
+  std::uint64_t first_element = 1;                  // the number of the first one in the file
+  std::vector<std::uint32_t> element_numbers = {};  // where those of the file are no row from the first on
+  Json compared = {};                               // of `compare`, both meshes' figures
 };
+
+// All figures but those of single elements, without gates.
+Json measure(const Subject& subject, const CommonFlags& flags);
 
 // Returns whether all gates pass. Stages --json and --report; says which gates failed.
 bool report_figures(const Subject& subject, const CommonFlags& flags, const std::vector<Gate>& gates,
                     ProgressDisplay& display, StagedOutputs& outputs);
+
+// Stages --json and --report, if they were asked for, with what the figures do not say: where they come from, and which
+// elements are worst.
+void write_files(Json& report, const Subject& subject, const CommonFlags& flags, StagedOutputs& outputs);
 
 // "scan.ply: 48485 vertices, 96966 triangles, 12.3 x 4.5 x 6.7 mm": a wrong unit is the commonest mistake.
 std::string describe_input(const SurfaceMesh& mesh, const CommonFlags& flags);

@@ -104,7 +104,9 @@ void add_common_flags(CLI::App& command, CommonFlags& flags) {
   command.add_option("input", flags.input, "What to read")->required()->type_name("FILE");
   add_unit_flag(command, flags.unit);
   command.add_option("--json", flags.json, "Write all figures as JSON (- for stdout)")->type_name("FILE");
-  command.add_option("--report", flags.report, "Write the quality report into this folder")->type_name("DIR");
+  command.add_option("--report", flags.report, "Write report.html and report.json into this folder")->type_name("DIR");
+  command.add_flag("--report-pdf", flags.report_pdf, "Print the report as report.pdf, too, by Chromium")
+      ->needs("--report");
   command
       .add_option("--require", flags.require, "Gate, e.g. \"edge_ratio.mean<=1.2\"; exit 1 where it fails (repeatable)")
       ->type_name("GATE")

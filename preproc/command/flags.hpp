@@ -19,6 +19,7 @@ struct CommonFlags {
   std::filesystem::path input;
   std::optional<std::filesystem::path> json;    // "-" is stdout
   std::optional<std::filesystem::path> report;  // a folder
+  bool report_pdf = false;                      // report.pdf in it, too
   std::optional<std::filesystem::path> config;
   std::vector<std::string> require;
   std::optional<std::string> unit;

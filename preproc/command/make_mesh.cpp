@@ -206,6 +206,14 @@ void require_writable_outputs(const MakeMeshJob& job) {
   require_writable(outputs, inputs, job.common.force);
 }
 
+std::vector<ReadFile> read_files(const MakeMeshJob& job) {
+  std::vector<ReadFile> files{{"scan", job.common.input}};
+  for (const std::filesystem::path& body : job.more_bodies) files.push_back({"scan", body});
+  if (job.features.read) files.push_back({"feature edges", *job.features.read});
+  if (job.common.config) files.push_back({"configuration", *job.common.config});
+  return files;
+}
+
 FileOptions file_options(const MakeMeshJob& job) {
   FileOptions options;
   options.provenance = job.common.input.filename().string();
@@ -293,7 +301,12 @@ int make_mesh(MakeMeshJob job) {
                           .sets = &result.sets,
                           .faces = &result.faces,
                           .bodies = &result.bodies,
-                          .contacts = &result.contacts};
+                          .contacts = &result.contacts,
+                          .face_sets = &result.face_sets,
+                          .inputs = read_files(job),
+                          .output = job.output,
+                          .first_element = first_element_of(job.output, job.numbering.numbers),
+                          .element_numbers = {}};
     if (!report_figures(subject, job.common, gates, display, outputs)) {
       outputs.commit();
       return 1;

@@ -1,5 +1,6 @@
 #include "preproc/command/output_files.hpp"
 
+#include "preproc/command/print_pdf.hpp"
 #include "preproc/mesh/error.hpp"
 
 #include <algorithm>
@@ -51,7 +52,7 @@ std::string text_of(const nlohmann::json& report) {
   return report.dump(2) + "\n";
 }
 
-constexpr const char *report_json = "report.json", *report_text = "report.txt";
+constexpr const char *report_json = "report.json", *report_page = "report.html", *report_pdf = "report.pdf";
 
 }  // namespace
 
@@ -65,7 +66,11 @@ std::vector<OutputPath> report_outputs(const CommonFlags& flags) {
   std::vector<OutputPath> outputs;
   if (flags.json && *flags.json != "-") outputs.push_back({*flags.json});
   if (flags.report)
-    for (const char* name : {report_json, report_text}) outputs.push_back({*flags.report / name, true});
+    for (const char* name : {report_json, report_page}) outputs.push_back({*flags.report / name, true});
+  if (flags.report && flags.report_pdf) {
+    require_chromium();
+    outputs.push_back({*flags.report / report_pdf, true});
+  }
   return outputs;
 }
 
@@ -105,9 +110,11 @@ void StagedOutputs::add_json(const nlohmann::json& report, const fs::path& file)
     add(file, text_of(report));
 }
 
-void StagedOutputs::add_report(const nlohmann::json& report, const std::string& text, const fs::path& folder) {
+void StagedOutputs::add_report(const nlohmann::json& report, const std::string& page, const CommonFlags& flags) {
+  const fs::path& folder = *flags.report;
   add(folder / report_json, text_of(report), OutputFile::Folder::is_made);
-  add(folder / report_text, text, OutputFile::Folder::is_made);
+  add(folder / report_page, page, OutputFile::Folder::is_made);
+  if (flags.report_pdf) add(folder / report_pdf, printed_as_pdf(page), OutputFile::Folder::is_made);
 }
 
 void StagedOutputs::commit() {

@@ -21,6 +21,7 @@ SubCommand add_simplify(CLI::App& root);
 SubCommand add_tetrahedralize(CLI::App& root);
 SubCommand add_faces(CLI::App& root);
 SubCommand add_check(CLI::App& root);
+SubCommand add_compare(CLI::App& root);
 SubCommand add_convert(CLI::App& root);
 
 }  // namespace scan2fea::command

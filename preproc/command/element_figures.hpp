@@ -1,0 +1,28 @@
+// What a report tells of single elements, in figures and for its page.
+#pragma once
+
+#include "preproc/command/figures.hpp"
+#include "quality/element_measures.hpp"
+#include "quality/histogram.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace scan2fea::command {
+
+struct ElementFigures {
+  ElementMeasures measures;
+  std::vector<MeasuredElements> histograms;
+  std::vector<std::uint32_t> worst;  // elements, the worst first; found by add_to_json
+};
+
+// Precondition: the subject has a surface.
+ElementFigures measure_elements(const Subject& subject);
+
+// Adds `histograms` and `worst_elements`.
+void add_to_json(ElementFigures& elements, const Subject& subject, Json& report);
+
+// report.html: of a report that has all its figures.
+std::string page_of(const Json& report, const ElementFigures& elements, const Subject& subject);
+
+}  // namespace scan2fea::command

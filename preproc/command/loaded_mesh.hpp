@@ -1,0 +1,40 @@
+// A mesh that somebody made, as `check` and `compare` measure it, and what it is measured against.
+#pragma once
+
+#include "preproc/command/figures.hpp"
+#include "preproc/mesh/named_sets.hpp"
+#include "preproc/mesh/point_cloud.hpp"
+#include "preproc/mesh/tet_mesh.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace scan2fea::command {
+
+// The surface, or a volume mesh and its boundary.
+struct LoadedMesh {
+  SurfaceMesh surface;
+  std::optional<TetMesh> volume_mesh;
+  std::vector<NamedSet> face_sets;             // of the surface
+  std::vector<std::uint32_t> element_numbers;  // where those of the file are no row from 1 on
+  std::string unit;                            // that the file says; empty where it says none
+};
+
+LoadedMesh load_mesh(const std::filesystem::path& file);
+
+// With its own figures, and nothing that it is compared with. The mesh must outlive it.
+Subject subject_of(const LoadedMesh& mesh);
+
+// A cloud tells distances of its points only.
+struct LoadedReference {
+  std::optional<SurfaceMesh> surface;
+  std::optional<PointCloud> cloud;
+  std::optional<double> solid_volume;  // of a mesh of second order, whose surface is curved and here in flat pieces
+};
+
+LoadedReference load_reference(const std::filesystem::path& file);
+LoadedReference reference_of(LoadedMesh mesh);
+
+}  // namespace scan2fea::command

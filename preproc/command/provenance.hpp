@@ -1,0 +1,26 @@
+// Where a result comes from: what a reader needs to make it again.
+#pragma once
+
+#include "quality/report.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace scan2fea::command {
+
+struct ReadFile {
+  std::string role;  // "scan", "reference", "configuration"
+  std::filesystem::path path;
+};
+
+// {name, version, libraries {name: version}}
+Json program_json();
+
+// {folder, arguments}: of this process, as the shell gave them.
+Json command_json();
+
+// [{role, file, bytes, sha256}]; null where a file is no longer to be read, a pipe say.
+Json inputs_json(const std::vector<ReadFile>& files);
+
+}  // namespace scan2fea::command

@@ -1,0 +1,42 @@
+// Pieces of HTML, of texts and numbers that may be anything.
+#pragma once
+
+#include "quality/report.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace scan2fea::html {
+
+std::string escaped(std::string_view text);
+
+// A number with so many significant digits, its exponent in words that people read: "1.2e-07", "12604", "none" for
+// null, "yes" and "no".
+std::string number(const Json& value, int digits = 4);
+
+// The figure of this name ("surface.edge_ratio.mean") as a <data> that holds the whole of it, so that a script, and a
+// test, finds what the text rounds. An empty text where the report has no such figure.
+std::string figure(const Json& report, std::string_view name, int digits = 4);
+const Json* find_figure(const Json& report, std::string_view name);
+
+// "(1.5, 0, -2)", for a list of three numbers.
+std::string place(const Json& point, int digits = 5);
+
+// A button that shows a place in the view: what the script looks for.
+std::string show_button(std::string_view what, std::string_view label, std::string_view data);
+
+// A table of these columns, a name's first letter telling how it is set: "#Area" to the right, as numbers are.
+class Table {
+ public:
+  Table(std::string_view caption, std::vector<std::string> columns);
+  void row(const std::vector<std::string>& cells, std::string_view attributes = {});  // cells are HTML
+  std::string text() const;                                                           // empty where there are no rows
+ private:
+  std::vector<std::string> columns_;
+  std::string head_, body_;
+};
+
+}  // namespace scan2fea::html

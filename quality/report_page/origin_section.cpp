@@ -1,0 +1,82 @@
+#include "quality/report_page/html.hpp"
+#include "quality/report_page/page_sections.hpp"
+
+#include <algorithm>
+
+namespace scan2fea {
+namespace {
+
+using namespace html;
+
+std::string for_shell(const std::string& word) {
+  const bool is_plain = !word.empty() && std::ranges::all_of(word, [](unsigned char c) {
+    return std::isalnum(c) || std::string_view("_-./=:,%+@").find(static_cast<char>(c)) != std::string_view::npos;
+  });
+  if (is_plain) return word;
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+std::string command_lines(const Json& report) {
+  if (!report.contains("command")) return {};
+  std::string line;
+  for (const Json& word : report["command"]["arguments"])
+    line += (line.empty() ? "" : " ") + for_shell(word.get<std::string>());
+  return "<h3>Make it again</h3>\n<pre id=\"command\">cd " +
+         escaped(for_shell(report["command"]["folder"].get<std::string>())) + "\n" + escaped(line) +
+         "</pre>\n<p>The same version of the program writes the same bytes, for any number of threads.</p>\n";
+}
+
+bool has_failed(const Json& report) {
+  return std::ranges::any_of(report["gates"], [](const Json& gate) { return !gate["pass"].get<bool>(); });
+}
+
+std::string file_table(const Json& report) {
+  Table table("Files", {"What", "File", "#Bytes", "SHA-256"});
+  if (report.contains("inputs"))
+    for (const Json& input : report["inputs"])
+      table.row({escaped(input["role"].get<std::string>()),
+                 "<code>" + escaped(input["file"].get<std::string>()) + "</code>", number(input["bytes"]),
+                 "<code class=\"hash\">" + escaped(input["sha256"].get<std::string>()) + "</code>"});
+  if (report.contains("output"))
+    table.row({has_failed(report) ? "not written, since a gate failed" : "written",
+               "<code>" + escaped(report["output"].get<std::string>()) + "</code>", "", ""});
+  return table.text();
+}
+
+std::string size_row(const Json& part) {
+  return number(part["box"][0], 6) + " \u00d7 " + number(part["box"][1], 6) + " \u00d7 " + number(part["box"][2], 6);
+}
+
+std::string size_table(const Json& report) {
+  Table table("Sizes",
+              {"What", "#Vertices", "#Triangles", "#Box, " + unit_text(report), "#Diagonal, " + unit_text(report)});
+  if (report.contains("reference"))
+    table.row({"reference: what the figures compare with", number(report["reference"]["vertices"]),
+               number(report["reference"]["triangles"]), size_row(report["reference"]),
+               number(report["reference"]["diagonal"], 6)});
+  if (report.contains("size"))
+    table.row({"surface of the mesh", figure(report, "surface.vertices"), figure(report, "surface.faces"),
+               size_row(report["size"]), number(report["size"]["diagonal"], 6)});
+  return table.text();
+}
+
+std::string versions(const Json& report) {
+  if (!report.contains("program")) return {};
+  const Json& program = report["program"];
+  std::string text = "<h3>Made by</h3>\n<p>" + escaped(program["name"].get<std::string>()) + " " +
+                     escaped(program["version"].get<std::string>());
+  for (const auto& [name, version] : program["libraries"].items())
+    text += ", " + escaped(name) + " " + escaped(version.get<std::string>());
+  return text + "; format of the figures: " + escaped(report["schema"].get<std::string>()) + ".</p>\n";
+}
+
+}  // namespace
+
+std::string origin_section(const Json& report) {
+  return "<h2 id=\"origin\">What went in and came out</h2>\n" + file_table(report) + size_table(report) +
+         command_lines(report) + versions(report);
+}
+
+}  // namespace scan2fea

@@ -1,0 +1,158 @@
+// The report's page: what its text says is there without this; this adds the view, the histograms and their links.
+import { arrays, frame, json } from './data.js';
+import { colourings } from './colours.js';
+import { drawHistograms } from './plots.js';
+import { Panel } from './panel.js';
+import { View } from './view.js';
+
+const get = (id) => document.getElementById(id);
+const count = (n) => n.toLocaleString('en');
+const number = (x) => (x === null || Number.isNaN(x) ? 'none' : String(+x.toPrecision(4)));
+
+function dropDeadLinks() {
+  for (const link of document.querySelectorAll('nav a'))
+    if (!document.querySelector(link.getAttribute('href'))) link.remove();
+}
+
+function tellWhatIsThinned(view) {
+  const lines = [];
+  if (view.result.is_thinned)
+    lines.push(`The view shows ${count(view.result.shown)} of the mesh's ${count(view.result.triangles)} triangles, thinned; figures, histograms and the list of the worst are of all.`);
+  if (view.result.is_volume && view.result.tetrahedra_shown === 0)
+    lines.push(`The ${count(view.result.tetrahedra)} tetrahedra are too many for a page: the cut shows the surface alone.`);
+  if (view.reference && view.reference.is_thinned)
+    lines.push(`The reference is shown by ${count(view.reference.shown)} of its ${count(view.reference.triangles)} triangles, thinned.`);
+  get('thinned').textContent = lines.join(' ');
+  get('thinned').hidden = lines.length === 0;
+}
+
+class Page {
+  constructor(report, description, data) {
+    Object.assign(this, { report, description, data });
+    this.unit = report.unit || 'model units';
+    this.frame = frame(description);
+    this.colourings = colourings(description, data, this.unit);
+    this.view = new View(get('canvas'), description, data, this.frame);
+    const both = report.compared, names = both && [both.first.input, both.second.input];
+    this.panel = new Panel(this.view, this.colourings, this.frame, this.unit, Boolean(this.view.reference), names);
+    this.clearBars = drawHistograms(get('histograms'), description.measures, this.unit, (m, bar, words) => this.pickBar(m, bar, words));
+    this.bindButtons();
+    this.bindPicking();
+    get('clear').addEventListener('click', () => this.clear());
+  }
+
+  numberOf(element) {
+    const numbers = this.data.element_numbers;
+    return numbers ? numbers[element] : element + this.description.first_element;
+  }
+
+  clear() {
+    this.clearBars();
+    this.view.clearChoice();
+    for (const row of document.querySelectorAll('tr.chosen')) row.classList.remove('chosen');
+    this.panel.tell('Nothing is selected.');
+  }
+
+  pickBar(measure, bar, words) {
+    if (bar === null) {
+      this.clear();
+      return;
+    }
+    for (const row of document.querySelectorAll('tr.chosen')) row.classList.remove('chosen');
+    const steps = this.data[measure.name], inBar = (s) => s !== 65535 && Math.floor(s / measure.steps_per_bar) === bar;
+    let shown;
+    if (measure.of === 'triangles') {
+      shown = this.view.chooseTriangles((i) => inBar(steps[i]));
+    } else if (this.view.tetrahedra) {
+      const elements = [];
+      steps.forEach((s, i) => { if (inBar(s)) elements.push(i); });
+      shown = this.view.chooseTetrahedra(elements);
+    } else {
+      const behind = this.data[`${measure.name}.behind`];
+      shown = this.view.chooseTriangles((i) => inBar(behind[i]));
+    }
+    this.panel.tell(`${words}; ${count(shown)} are shown.`);
+  }
+
+  showWorst(index) {
+    this.clearBars();
+    const element = this.report.worst_elements.elements[index], worst = this.description.worst[index];
+    for (const row of document.querySelectorAll('tr[data-worst]')) row.classList.toggle('chosen', +row.dataset.worst === index);
+    this.view.chooseElement(worst.corners);
+    const figures = ['scaled_jacobian', 'min_angle_deg', 'min_dihedral_deg', 'max_dihedral_deg', 'max_angle_deg', 'edge_ratio']
+      .filter((key) => key in element).map((key) => `${key.replace(/_deg$/, '').replaceAll('_', ' ')} ${number(element[key])}`);
+    this.panel.tell(`Element ${element.element}: ${figures.join(', ')}; ${element.cause}.`);
+    get('canvas').dataset.element = element.element;
+  }
+
+  showSet(name) {
+    const index = this.description.sets.findIndex((s) => s.name === name), set = this.data['result.set'];
+    const madeUp = { FILLED: 1, ENRICHED: 2 }[name];
+    const shown = madeUp
+      ? this.view.chooseTriangles((i) => this.data['result.made_up'][i] === madeUp)
+      : this.view.chooseTriangles((i) => set[i] === index);
+    this.panel.tell(`Set ${name}: ${count(shown)} triangles are shown.`);
+  }
+
+  bindButtons() {
+    document.addEventListener('click', (event) => {
+      const button = event.target.closest('button.show');
+      if (!button) return;
+      const { show, at } = button.dataset;
+      if (show === 'worst') this.showWorst(+at);
+      if (show === 'set') this.showSet(at);
+      if (show === 'place') {
+        this.view.showPlace(JSON.parse(at));
+        this.panel.tell(`The place (${JSON.parse(at).map(number).join(', ')}).`);
+      }
+      const calm = window.matchMedia('(prefers-reduced-motion: reduce)').matches;
+      get('viewer').scrollIntoView({ behavior: calm ? 'auto' : 'smooth' });
+      get('canvas').focus({ preventScroll: true });
+    });
+  }
+
+  bindPicking() {
+    const canvas = get('canvas');
+    let from = null;
+    canvas.addEventListener('pointerdown', (e) => { from = [e.clientX, e.clientY]; });
+    canvas.addEventListener('click', (e) => {
+      if (!from || Math.hypot(e.clientX - from[0], e.clientY - from[1]) > 4) return;
+      const box = canvas.getBoundingClientRect(), hit = this.view.pick(e.clientX - box.left, e.clientY - box.top);
+      if (hit) this.describe(hit);
+    });
+  }
+
+  describe({ triangle, tetrahedron }) {
+    const element = tetrahedron !== undefined ? tetrahedron : this.data['result.element'][triangle];
+    const figures = this.colourings
+      .filter((c) => !c.names)
+      .map((c) => [c.title, tetrahedron === undefined ? c.ofFaces()[triangle] : c.ofTetrahedra() && c.ofTetrahedra()[tetrahedron]])
+      .filter(([, value]) => typeof value === 'number').map(([title, value]) => `${title} ${number(value)}`);
+    const set = tetrahedron === undefined && this.description.sets[this.data['result.set'][triangle]];
+    this.panel.tell(`Element ${this.numberOf(element)}: ${figures.join('; ')}${set ? `; in ${set.name}` : ''}.`);
+  }
+}
+
+async function start() {
+  dropDeadLinks();
+  const report = json('report'), description = json('view-data');
+  document.documentElement.classList.add('scripted');
+  get('viewer').hidden = false;
+  try {
+    const page = new Page(report, description, await arrays(description.arrays));
+    tellWhatIsThinned(description);
+    document.documentElement.dataset.ready = Math.round(performance.now());
+    return page;
+  } catch (error) {
+    document.documentElement.classList.remove('scripted');
+    get('viewer').hidden = true;
+    const note = document.createElement('p');
+    note.className = 'hint';
+    note.textContent = `The interactive view cannot be shown here: ${error.message}.`;
+    get('viewer').after(note);
+    if (document.createElement('canvas').getContext('webgl2')) throw error;  // of ours, not the browser's
+    return null;
+  }
+}
+
+start();

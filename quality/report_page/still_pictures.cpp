@@ -1,0 +1,82 @@
+#include "quality/report_page/still_pictures.hpp"
+
+#include "preproc/mesh/surface_mesh.hpp"
+#include "quality/report_page/picture.hpp"
+#include "quality/triangle_tree.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace scan2fea {
+namespace {
+
+struct Direction {
+  const char* title;
+  Vec3 towards;
+};
+
+const std::vector<Direction>& directions() {
+  static const std::vector<Direction> list{{"From the front, right and above", {-1, 1.4, -0.9}},
+                                           {"From the back, left and above", {1, -1.4, -0.9}},
+                                           {"From the front, right and below", {-1, 1.4, 0.9}}};
+  return list;
+}
+
+std::vector<Rgb> colours_of(const ElementMeasures& measures, const TetMesh* volume_mesh,
+                            const MeasuredElements& shown) {
+  std::vector<Rgb> colours;
+  for (std::size_t f = 0; f < measures.faces.triangles.size(); ++f)
+    colours.push_back(
+        colour_of_step(shown, shown.steps[shown.of == "tetrahedra" ? volume_mesh->boundary[f].tetrahedron : f]));
+  return colours;
+}
+
+PictureView close_up(const SurfaceMesh& mesh, const Vec3& place) {
+  const Triangle& face = mesh.triangles[TriangleTree(mesh).closest(place).triangle];
+  const Vec3 outward = area_vector(mesh, face).stableNormalized();
+  constexpr double edges_across = 16;
+  const double height = std::min(edges_across * mean_edge_length(mesh), bounding_box(mesh.vertices).diagonal());
+  return {.towards = -outward,
+          .up = std::abs(outward.z()) < 0.9 ? Vec3::UnitZ() : Vec3::UnitY(),
+          .centre = place,
+          .height = height,
+          .nearest = height};
+}
+
+}  // namespace
+
+Rgb colour_of_step(const MeasuredElements& measure, std::uint16_t step) {
+  if (step == no_step) return neutral_colour;
+  const double share = step / (static_cast<double>(measure.scale.bars) * measure.scale.steps_per_bar());
+  if (measure.measure == "deviation") return diverging_colours()[static_cast<std::size_t>(255 * share)];
+  const bool large_is_bad = measure.measure == "edge_ratio" || measure.measure == "max_dihedral_deg";
+  return sequential_colours()[static_cast<std::size_t>(255 * (large_is_bad ? share : 1 - share))];
+}
+
+const MeasuredElements& pictured_measure(const std::vector<MeasuredElements>& histograms) {
+  const auto named = [&](const char* name) {
+    return std::find_if(histograms.begin(), histograms.end(), [&](const auto& m) { return m.measure == name; });
+  };
+  for (const char* name : {"deviation", "scaled_jacobian"})
+    if (const auto it = named(name); it != histograms.end()) return *it;
+  return histograms.front();
+}
+
+std::vector<StillPicture> still_pictures(const ElementMeasures& measures, const TetMesh* volume_mesh,
+                                         const std::vector<MeasuredElements>& histograms,
+                                         const std::optional<Vec3>& worst_place) {
+  std::vector<StillPicture> pictures;
+  const SurfaceMesh& mesh = measures.faces;
+  if (mesh.triangles.empty()) return pictures;
+  const std::vector<Rgb> colours = colours_of(measures, volume_mesh, pictured_measure(histograms));
+  for (const Direction& direction : directions())
+    pictures.push_back(
+        {draw_picture(mesh, colours, view_of_all(mesh, direction.towards, Vec3::UnitZ())), direction.title});
+  if (worst_place)
+    pictures.push_back(
+        {draw_picture(mesh, colours, close_up(mesh, *worst_place), {.edges = true, .ring = *worst_place}),
+         "The worst place"});
+  return pictures;
+}
+
+}  // namespace scan2fea

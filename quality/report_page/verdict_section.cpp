@@ -1,0 +1,159 @@
+#include "quality/report_page/html.hpp"
+#include "quality/report_page/page_sections.hpp"
+
+#include <cmath>
+
+namespace scan2fea {
+namespace {
+
+using namespace html;
+
+struct Status {
+  const char* tone;  // good, bad or plain: words tell it, too
+  std::string text;
+};
+
+std::string joined(const std::vector<std::string>& parts) {
+  std::string text;
+  for (const std::string& part : parts) text += (text.empty() ? "" : ", ") + part;
+  return text;
+}
+
+// What no mesher or solver takes.
+std::vector<std::string> faults(const Json& report) {
+  std::vector<std::string> list;
+  const auto is = [&](const char* name, bool value) {
+    const Json* found = find_figure(report, name);
+    return found != nullptr && found->is_boolean() && found->get<bool>() == value;
+  };
+  const auto counted = [&](const char* name) {
+    const Json* found = find_figure(report, name);
+    return found != nullptr && found->is_number() && found->get<double>() > 0;
+  };
+  if (is("surface.closed", false)) list.emplace_back("not closed");
+  if (is("surface.manifold", false)) list.emplace_back("not manifold");
+  if (counted("surface.self_intersections"))
+    list.push_back(figure(report, "surface.self_intersections") + " pairs of triangles cross");
+  if (counted("volume_mesh.inverted"))
+    list.push_back(figure(report, "volume_mesh.inverted") + " elements are inside out");
+  return list;
+}
+
+Status status_of(const Json& report) {
+  const Json& gates = report["gates"];
+  std::size_t failed = 0;
+  for (const Json& gate : gates) failed += gate["pass"].get<bool>() ? 0 : 1;
+  const std::vector<std::string> wrong = faults(report);
+  const std::string mesh = report.contains("volume_mesh") ? "mesh" : "surface";
+  const std::string soundness = wrong.empty() ? "The " + mesh + " is closed, manifold and free of crossings" +
+                                                    (mesh == "mesh" ? " and inverted elements" : "")
+                                              : "The " + mesh + " has faults: " + joined(wrong);
+  if (failed > 0)
+    return {"bad", std::to_string(failed) + " of " + std::to_string(gates.size()) + " gates failed. " + soundness};
+  if (!gates.empty())
+    return {wrong.empty() ? "good" : "bad", (gates.size() == 1 ? "The gate passed. "
+                                                               : std::to_string(gates.size()) + " of " +
+                                                                     std::to_string(gates.size()) + " gates passed. ") +
+                                                soundness};
+  return {wrong.empty() ? "plain" : "bad", soundness + ". No gates were asked for"};
+}
+
+std::string fact(const std::string& term, const std::string& value, const std::string& rest) {
+  return "<div><dt>" + term + "</dt><dd class=\"lead\">" + value + "</dd><dd>" + rest + "</dd></div>\n";
+}
+
+std::string distance_fact(const Json& report) {
+  if (!report.contains("deviation")) {
+    if (report.contains("points"))
+      return fact("Points of the cloud", figure(report, "points.largest_distance") + " " + unit_text(report),
+                  "at most from the mesh, at " + place(report["points"]["farthest_point"]));
+    return fact("Distance from a reference", "not measured", "no reference was given");
+  }
+  const Json& at = report["deviation"]["farthest_point"];
+  return fact(report.contains("compared") ? "Farthest from the first mesh" : "Farthest from the reference",
+              distance_text(report, "deviation.hausdorff_pct_diagonal"),
+              "at " + place(at) + " " + show_button("place", "Show", at.dump()) + "<br>RMS " +
+                  distance_text(report, "deviation.rms_pct_diagonal") + "<br>volume " +
+                  figure(report, "deviation.volume_difference_pct", 3) + "\u00a0%, area " +
+                  figure(report, "deviation.area_difference_pct", 3) + "\u00a0%");
+}
+
+std::string worst_fact(const Json& report) {
+  const Json* list = find_figure(report, "worst_elements.elements");
+  if (list == nullptr || list->empty()) return {};
+  const Json& worst = list->front();
+  const bool is_volume = worst.contains("scaled_jacobian");
+  return fact("Worst element",
+              "<span id=\"worst-number\">" + std::to_string(worst["element"].get<std::uint64_t>()) + "</span> " +
+                  show_button("worst", "Show", "0"),
+              (is_volume ? "scaled Jacobian " + number(worst["scaled_jacobian"])
+                         : "smallest angle " + number(worst["min_angle_deg"]) + "\u00b0") +
+                  " at " + place(worst["place"]) + "<br>" + escaped(worst["cause"].get<std::string>()));
+}
+
+std::string made_up_fact(const Json& report) {
+  if (!report.contains("made_up")) return {};
+  double area = 0;
+  for (const Json& change : report["made_up"]) area += change["area"].get<double>();
+  if (report["made_up"].empty())
+    return fact("Made up by repair", "nothing", "Every part of the surface follows what the scanner saw");
+  std::string share;
+  if (const Json* whole = find_figure(report, "surface.area"); whole != nullptr && whole->get<double>() > 0)
+    share = " (" + number(100 * area / whole->get<double>(), 3) + "\u00a0% of the surface)";
+  return fact("Made up by repair", number(area, 3) + " " + unit_text(report, 2) + share,
+              "in " + std::to_string(report["made_up"].size()) +
+                  (report["made_up"].size() == 1 ? " place" : " places") + ", listed below");
+}
+
+std::string size_fact(const Json& report) {
+  const bool is_volume = report.contains("volume_mesh");
+  std::string rest = figure(report, "surface.faces") + " triangles on the surface";
+  if (const Json* size = find_figure(report, "size.box"))
+    rest += "<br>" + number((*size)[0]) + " \u00d7 " + number((*size)[1]) + " \u00d7 " + number((*size)[2]) + " " +
+            unit_text(report);
+  if (is_volume)
+    return fact(
+        "Mesh", figure(report, "volume_mesh.tetrahedra") + " tetrahedra",
+        figure(report, "volume_mesh.nodes") + " nodes, order " + figure(report, "volume_mesh.order") + "<br>" + rest);
+  return fact("Surface", figure(report, "surface.faces") + " triangles", rest);
+}
+
+std::string gate_table(const Json& report) {
+  Table table("Gates", {"Result", "Figure", "#Value", "", "#Limit"});
+  for (const Json& gate : report["gates"]) {
+    const bool pass = gate["pass"].get<bool>();
+    table.row({pass ? "<strong class=\"good\">passed</strong>" : "<strong class=\"bad\">failed</strong>",
+               "<code>" + escaped(gate["name"].get<std::string>()) + "</code>",
+               "<data value=\"" + gate["value"].dump() + "\">" + number(gate["value"], 6) + "</data>",
+               escaped(gate["operator"].get<std::string>()), number(gate["limit"], 6)});
+  }
+  return table.text();
+}
+
+}  // namespace
+
+std::string unit_text(const Json& report, int power) {
+  if (!report.contains("unit"))
+    return power == 1 ? "model units" : power == 2 ? "model units\u00b2" : "model units\u00b3";
+  const std::string unit = escaped(report["unit"].get<std::string>());
+  return unit + (power == 1 ? "" : power == 2 ? "\u00b2" : "\u00b3");
+}
+
+std::string distance_text(const Json& report, const std::string& name) {
+  const Json *share = find_figure(report, name), *diagonal = find_figure(report, "reference.diagonal");
+  if (share == nullptr || !share->is_number()) return "none";
+  const std::string of_diagonal = figure(report, name, 3) + "\u00a0% of the diagonal";
+  if (diagonal == nullptr) return of_diagonal;
+  return number(share->get<double>() / 100 * diagonal->get<double>(), 3) + "\u00a0" + unit_text(report) + " (" +
+         of_diagonal + ")";
+}
+
+std::string verdict_section(const Json& report) {
+  if (!report.contains("surface")) return {};
+  const Status status = status_of(report);
+  return std::string("<h2 id=\"verdict\">Verdict</h2>\n<p class=\"status ") + status.tone + "\">" + status.text +
+         ".</p>\n<dl class=\"facts\">\n" + distance_fact(report) + worst_fact(report) + made_up_fact(report) +
+         size_fact(report) + "</dl>\n" + gate_table(report);
+}
+
+}  // namespace scan2fea

@@ -1,0 +1,26 @@
+// How far each triangle of a surface lies from a reference, and on which side.
+#pragma once
+
+#include "preproc/mesh/surface_mesh.hpp"
+#include "preproc/mesh/tet_mesh.hpp"
+#include "quality/triangle_tree.hpp"
+
+#include <vector>
+
+namespace scan2fea {
+
+// Model units. Of a triangle the distance of largest size among its corners, the middles of its edges and its own: a
+// sample, as are the distances of measure_deviation. Positive: the mesh lies outside of the reference, by the normals
+// of the mesh, since those of a scan may be anything. O(n log n), parallel; the same for any number of threads.
+
+// Per triangle of the mesh. Precondition: it has an area.
+std::vector<double> signed_deviations(const SurfaceMesh& mesh, const TriangleTree& reference);
+
+// Per outer boundary face, which of second order is curved.
+std::vector<double> signed_deviations(const TetMesh& mesh, const TriangleTree& reference);
+
+// Per triangle of the reference, from its corners to the mesh, with the same meaning of the sign. `tree` is the mesh's.
+std::vector<double> signed_deviations_of_reference(const SurfaceMesh& reference, const SurfaceMesh& mesh,
+                                                   const TriangleTree& tree);
+
+}  // namespace scan2fea

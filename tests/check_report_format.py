@@ -1,0 +1,97 @@
+"""Holds the figures that the command writes against report.schema.json, and the schema against its version.
+
+usage: check_report_format.py --command SCAN2FEA --scan SCAN.ply --schema SCHEMA.json --figures FOLDER
+FOLDER: figures that other tests have left; they are taken away. Prints what is wrong; exit status 1 if anything is, 77
+where python3-jsonschema is not installed.
+"""
+import argparse
+import copy
+import glob
+import hashlib
+import json
+import os
+import subprocess
+import sys
+import tempfile
+
+try:
+    import jsonschema
+except ImportError:
+    print("python3-jsonschema is not installed")
+    sys.exit(77)
+
+# The schema of each version of the format, without its words: whoever changes the format gives it a new version, in
+# quality/report.hpp and in the schema, and a line here.
+formats = {
+    "scan2fea/2": "5ddd9ecaf9e1af6a8d58e916c00627c5eac66a95bf81f27c4d2ec83653e5765b",
+}
+wrong = []
+
+
+def expect(condition, what):
+    if not condition:
+        wrong.append(what)
+        print("wrong:", what)
+
+
+def without_words(schema):
+    if isinstance(schema, list):
+        return [without_words(entry) for entry in schema]
+    if not isinstance(schema, dict):
+        return schema
+    return {key: without_words(value) for key, value in schema.items()
+            if not (key in ("description", "title") and isinstance(value, str))}
+
+
+def fingerprint(schema):
+    return hashlib.sha256(json.dumps(without_words(schema), sort_keys=True).encode()).hexdigest()
+
+
+def figures_of_commands(command, scan):
+    with tempfile.TemporaryDirectory() as folder:
+        part, surface = os.path.join(folder, "part.inp"), os.path.join(folder, "part.stl")
+        for arguments in (["run", scan, "-o", part, "--faces", "2000", "--unit", "mm", "--set", "foot=z<3mm"],
+                          ["surface", scan, "-o", surface, "--faces", "2000", "--enrich"],
+                          ["repair", scan, "-o", os.path.join(folder, "repaired.ply")],
+                          ["run", scan, "-o", os.path.join(folder, "b.vtu"), "--faces", "1500", "--order", "2"],
+                          ["faces", part], ["check", surface], ["compare", part, surface],
+                          ["compare", part, os.path.join(folder, "b.vtu"), "--reference", scan], ["check", part, "--reference", scan],
+                          ["check", scan, "--require", "edge_ratio.mean<=1.0"]):
+            run = subprocess.run([command, *arguments, "--json", "-", "--quiet"], capture_output=True, text=True)
+            expect(run.returncode in (0, 1), f"{arguments}: exit {run.returncode}, {run.stderr}")
+            yield " ".join(arguments), json.loads(run.stdout)
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    for flag in ("--command", "--scan", "--schema", "--figures"):
+        parser.add_argument(flag, required=True)
+    arguments = parser.parse_args()
+    with open(arguments.schema) as file:
+        schema = json.load(file)
+    jsonschema.Draft202012Validator.check_schema(schema)
+    version = schema["properties"]["schema"]["const"]
+    expect(formats.get(version) == fingerprint(schema),
+           f"the schema of {version} has changed ({fingerprint(schema)}): give the format a new version")
+
+    validator = jsonschema.Draft202012Validator(schema)
+    count = 0
+    for name, report in figures_of_commands(arguments.command, arguments.scan):
+        for error in validator.iter_errors(report):
+            expect(False, f"{name}: {error.json_path}: {error.message[:200]}")
+        count += 1
+        for change in (lambda r: r.update(new_key=1), lambda r: r.pop("gates"), lambda r: r.update(schema="scan2fea/0")):
+            changed = copy.deepcopy(report)
+            change(changed)
+            expect(not validator.is_valid(changed), f"{name}: a changed format is noticed")
+    for file in glob.glob(os.path.join(arguments.figures, "*.json")):
+        with open(file) as stream:
+            for error in validator.iter_errors(json.load(stream)):
+                expect(False, f"{file}: {error.json_path}: {error.message[:200]}")
+        os.remove(file)
+        count += 1
+    print(f"{count} reports have the format {version}")
+    sys.exit(1 if wrong else 0)
+
+
+main()

@@ -1,0 +1,53 @@
+#include "quality/signed_deviation.hpp"
+
+#include "tests/analytic_meshes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace scan2fea {
+namespace {
+
+SurfaceMesh scaled(SurfaceMesh mesh, double factor) {
+  for (Vec3& p : mesh.vertices) p *= factor;
+  return mesh;
+}
+
+TEST(SignedDeviation, IsPositiveWhereTheMeshLiesOutside) {
+  const SurfaceMesh ball = analytic::sphere(10, 4);
+  const TriangleTree tree(ball);
+  const double chord = 0.02;  // of this tessellation, below the radius
+  for (const double d : signed_deviations(scaled(ball, 1.05), tree)) EXPECT_NEAR(d, 0.5, chord + 0.05 * chord);
+  for (const double d : signed_deviations(scaled(ball, 0.95), tree)) EXPECT_NEAR(d, -0.5, chord + 0.05 * chord);
+}
+
+TEST(SignedDeviation, OfTheReferenceHasTheSameSign) {
+  const SurfaceMesh ball = analytic::sphere(10, 4), larger = scaled(ball, 1.05);
+  for (const double d : signed_deviations_of_reference(ball, larger, TriangleTree(larger))) EXPECT_NEAR(d, 0.5, 0.03);
+}
+
+TEST(SignedDeviation, IsZeroOnTheReferenceItself) {
+  const SurfaceMesh box = analytic::box({4, 3, 2}, 0.5);
+  for (const double d : signed_deviations(box, TriangleTree(box))) EXPECT_NEAR(d, 0, 1e-12);
+}
+
+// The scan's own orientation does not matter.
+TEST(SignedDeviation, TakesItsSignFromTheMesh) {
+  SurfaceMesh turned = analytic::sphere(10, 3);
+  const SurfaceMesh larger = scaled(turned, 1.1);
+  for (Triangle& t : turned.triangles) std::swap(t[0], t[1]);
+  for (const double d : signed_deviations(larger, TriangleTree(turned))) EXPECT_GT(d, 0.9);
+}
+
+// One dent: the sample in the middle of the triangle over it tells of it, though its corners lie on the reference.
+TEST(SignedDeviation, SeesWhatLiesBetweenTheCorners) {
+  SurfaceMesh roof;
+  roof.vertices = {{0, 0, 0}, {3, 0, 0}, {0, 3, 0}, {1, 1, -0.4}};
+  roof.triangles = {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+  const SurfaceMesh flat{{{0, 0, 0}, {3, 0, 0}, {0, 3, 0}}, {{0, 1, 2}}};
+  EXPECT_GT(signed_deviations(flat, TriangleTree(roof)).front(), 0.3);
+}
+
+}  // namespace
+}  // namespace scan2fea
