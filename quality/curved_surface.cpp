@@ -61,11 +61,19 @@ Vec3 FlatPieces::on_curve(std::uint32_t piece, double first, double second) cons
   return at(nodes_of(*this, of_piece[piece]), first * a + second * b + (1 - first - second) * c);
 }
 
+std::vector<BoundaryFace> outer_faces_by_element(const TetMesh& mesh) {
+  std::vector<BoundaryFace> faces(mesh.boundary.begin(),
+                                  mesh.boundary.begin() + static_cast<std::ptrdiff_t>(mesh.outer_faces()));
+  std::sort(faces.begin(), faces.end(), [](BoundaryFace a, BoundaryFace b) {
+    return a.tetrahedron != b.tetrahedron ? a.tetrahedron < b.tetrahedron : a.face < b.face;
+  });
+  return faces;
+}
+
 FlatPieces flat_pieces(const TetMesh& mesh, double tolerance) {
   FlatPieces pieces;
   pieces.nodes = mesh.nodes;
-  for (std::size_t i = 0; i < mesh.outer_faces(); ++i) {
-    const BoundaryFace f = mesh.boundary[i];
+  for (const BoundaryFace f : outer_faces_by_element(mesh)) {
     const Triangle corners = boundary_triangle(mesh, f), middles = boundary_mid_edge_nodes(mesh, f);
     pieces.curved.push_back({{corners[0], corners[1], corners[2], middles[0], middles[1], middles[2]}});
     add_pieces(pieces, static_cast<std::uint32_t>(pieces.curved.size() - 1), tolerance);

@@ -18,7 +18,7 @@ struct CurvedTriangle {
 // neighbours are cut differently, there are gaps of less than the tolerance.
 struct FlatPieces {
   SurfaceMesh mesh;
-  std::vector<CurvedTriangle> curved;                  // in the order of TetMesh::boundary, without those between
+  std::vector<CurvedTriangle> curved;                  // in the order of outer_faces_by_element
   std::vector<Vec3> nodes;                             // of the whole mesh
   std::vector<std::uint32_t> of_piece;                 // per flat triangle the curved one
   std::vector<std::array<Eigen::Vector2d, 3>> places;  // and its corners there: second and third coordinate
@@ -26,6 +26,10 @@ struct FlatPieces {
   // The point of the curved triangle whose place in the flat one has these barycentric coordinates.
   Vec3 on_curve(std::uint32_t piece, double first, double second) const;
 };
+
+// The boundary without the faces between bodies, by element and face: the order that any file of the mesh gives, so that
+// sums over it, and samples of it, are those of the mesh that is read again.
+std::vector<BoundaryFace> outer_faces_by_element(const TetMesh& mesh);
 
 // Precondition: the mesh is of second order. No point of a flat triangle is farther than `tolerance`, model units, from
 // the curved one, unless that takes more than `most_cuts` along an edge; nor the other way round. O(n + pieces).

@@ -162,8 +162,8 @@ Json measure(const Subject& subject, const CommonFlags& flags) {
   if (subject.surface != nullptr) report.surface = measure_surface(*subject.surface);
   if (subject.surface != nullptr && is_curved) {
     report.surface->area = 0;
-    for (std::size_t f = 0; f < subject.volume_mesh->outer_faces(); ++f)
-      report.surface->area += face_area(*subject.volume_mesh, subject.volume_mesh->boundary[f]);
+    for (const BoundaryFace f : outer_faces_by_element(*subject.volume_mesh))
+      report.surface->area += face_area(*subject.volume_mesh, f);
     if (report.surface->volume) report.surface->volume = total_volume(*subject.volume_mesh);
   }
   if (subject.surface != nullptr && subject.reference != nullptr) {

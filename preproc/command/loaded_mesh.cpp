@@ -10,6 +10,7 @@ namespace scan2fea::command {
 
 LoadedMesh load_mesh(const std::filesystem::path& file) {
   MeshFile read = read_mesh(file);
+  if (first_element_of(file) == 0) read.element_numbers.clear();  // those of the reader alone
   if (auto* surface = std::get_if<NamedSurface>(&read.mesh))
     return {.surface = std::move(surface->mesh),
             .volume_mesh = {},

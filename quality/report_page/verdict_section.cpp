@@ -107,7 +107,8 @@ std::string made_up_fact(const Json& report) {
 
 std::string size_fact(const Json& report) {
   const bool is_volume = report.contains("volume_mesh");
-  std::string rest = figure(report, "surface.faces") + " triangles on the surface";
+  std::string rest = is_volume ? figure(report, "surface.faces") + " triangles on the surface"
+                               : figure(report, "surface.vertices") + " vertices";
   if (const Json* size = find_figure(report, "size.box"))
     rest += "<br>" + number((*size)[0]) + " \u00d7 " + number((*size)[1]) + " \u00d7 " + number((*size)[2]) + " " +
             unit_text(report);

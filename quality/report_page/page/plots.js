@@ -6,6 +6,9 @@ import { longTitle } from './colours.js';
 
 const width = 320, height = 150, left = 38, right = 6, top = 6, bottom = 22;
 
+// Of a tick: short, whatever its size.
+const short = (x) => (x !== 0 && (Math.abs(x) < 1e-3 || Math.abs(x) >= 1e5) ? x.toExponential(1) : String(+x.toPrecision(4)));
+
 function words(measure, bar, unit) {
   const size = (measure.high - measure.low) / measure.bars;
   const number = (x) => +x.toPrecision(4);
@@ -25,7 +28,7 @@ export function drawHistograms(box, measures, unit, pick) {
     const most = Math.max(10, ...measure.counts);
     const y = scaleLog().domain([0.7, most]).range([height - bottom, top]);
     const decades = [...Array(1 + Math.floor(Math.log10(most))).keys()].map((i) => 10 ** i);
-    svg.append('g').attr('class', 'axis').attr('transform', `translate(0,${height - bottom})`).call(axisBottom(x).ticks(6).tickSizeOuter(0));
+    svg.append('g').attr('class', 'axis').attr('transform', `translate(0,${height - bottom})`).call(axisBottom(x).ticks(6).tickFormat(short).tickSizeOuter(0));
     svg.append('g').attr('class', 'axis').attr('transform', `translate(${left},0)`)
       .call(axisLeft(y).tickValues(decades).tickFormat((d) => d.toLocaleString('en')).tickSizeOuter(0));
     addBars(svg, measure, x, y, unit, (bar, node) => {
@@ -87,6 +90,6 @@ export function drawLegend(box, colouring, low, high, css) {
   for (let i = 0; i <= 32; ++i) ramp.append('stop').attr('offset', i / 32).attr('stop-color', css(Math.round((255 * i) / 32)));
   svg.append('rect').attr('x', 10).attr('y', 2).attr('width', end - 10).attr('height', 12).attr('fill', 'url(#ramp)');
   const x = scaleLinear().domain([low, high]).range([10, end]);
-  svg.append('g').attr('class', 'axis').attr('transform', 'translate(0,14)').call(axisBottom(x).ticks(wide / 90).tickSizeOuter(0));
+  svg.append('g').attr('class', 'axis').attr('transform', 'translate(0,14)').call(axisBottom(x).ticks(wide / 90).tickFormat(short).tickSizeOuter(0));
   svg.append('text').attr('x', end + 14).attr('y', 13).attr('font-size', 12).text(colouring.title);
 }

@@ -1,0 +1,136 @@
+// What the command tells of single elements, and the report that it writes, seen from outside.
+#include "preproc/mesh/write_surface.hpp"
+#include "tests/analytic_meshes.hpp"
+#include "tests/run_command.hpp"
+#include "tests/temporary_folder.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+namespace scan2fea {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class ReportCommand : public ::testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  std::string quoted(const std::string& name) const { return "'" + path(name) + "'"; }
+
+  // The figures that the command prints as JSON.
+  static json figures(const std::string& arguments) {
+    const auto result = run_command(arguments + " --json - --quiet");
+    EXPECT_EQ(result.exit_code, 0) << arguments << result.standard_error;
+    return json::parse(result.standard_output);
+  }
+
+  void write_ball(const std::string& name, double radius = 10) const {
+    write_surface(analytic::sphere(radius, 4), path(name));
+  }
+
+  json run_ball(const std::string& output, const std::string& flags = {}) const {
+    write_ball("ball.ply");
+    return figures("run " + quoted("ball.ply") + " -o " + quoted(output) + " --faces 500 --force " + flags);
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(ReportCommand, FiguresOfAResultAreThoseOfItsFile) {
+  for (const std::string order : {"1", "2"}) {
+    const json made = run_ball("part.inp", "--order " + order);
+    const json checked = figures("check " + quoted("part.inp") + " --reference " + quoted("ball.ply"));
+    for (const char* section :
+         {"surface", "deviation", "volume_mesh", "histograms", "worst_elements", "size", "reference"})
+      EXPECT_EQ(made[section], checked[section]) << section << " of order " << order;
+    EXPECT_EQ(checked["worst_elements"]["elements"].size(), 10U);
+    EXPECT_EQ(checked["worst_elements"]["elements"][0]["scaled_jacobian"],
+              checked["volume_mesh"]["scaled_jacobian"]["min"]);
+  }
+}
+
+TEST_F(ReportCommand, ElementNumbersAreThoseOfTheFile) {
+  const auto worst = [](const json& report) { return report["worst_elements"]["elements"][0]["element"].get<int>(); };
+  const int number = worst(run_ball("part.inp"));
+  EXPECT_EQ(worst(run_ball("again.inp", "--first-element 1001")), number + 1000);
+  EXPECT_EQ(worst(figures("check " + quoted("again.inp"))), number + 1000);
+  for (const std::string extension : {"msh", "bdf", "unv", "mail", "cdb", "exo"}) {
+    ASSERT_EQ(run_command("convert " + quoted("part.inp") + " -o " + quoted("c." + extension)).exit_code, 0);
+    EXPECT_EQ(worst(figures("check " + quoted("c." + extension))), number) << extension;
+  }
+  for (const std::string extension : {"vtu", "xdmf", "su2"}) {  // counted from 0
+    ASSERT_EQ(run_command("convert " + quoted("part.inp") + " -o " + quoted("c." + extension)).exit_code, 0);
+    EXPECT_EQ(worst(figures("check " + quoted("c." + extension))), number - 1) << extension;
+  }
+}
+
+TEST_F(ReportCommand, FilesAreKnownByTheirSha256) {
+  write_text(path("one.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const json input = figures("check " + quoted("one.obj"))["inputs"][0];
+  EXPECT_EQ(input["bytes"], 32);
+  EXPECT_EQ(input["sha256"], "697b00ab13410c52a542d2e9c63711fcc04e9cbf6c0d3439a9b43cc812e6e713");  // by sha256sum
+}
+
+TEST_F(ReportCommand, AFailedGateIsInTheReportAndTheMeshIsNot) {
+  write_ball("ball.ply");
+  const auto result = run_command("surface " + quoted("ball.ply") + " -o " + quoted("out.ply") +
+                                  " --faces 500 --report " + quoted("report") + " --require 'edge_ratio.mean<=1.0'");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_FALSE(std::filesystem::exists(path("out.ply")));
+  const std::string page = contents(path("report/report.html"));
+  EXPECT_THAT(page, HasSubstr("1 of 1 gates failed"));
+  EXPECT_THAT(page, HasSubstr("not written, since a gate failed"));
+}
+
+TEST_F(ReportCommand, TheJsonOfAReportIsThatOfTheFlag) {
+  write_ball("ball.ply");
+  ASSERT_EQ(
+      run_command("check " + quoted("ball.ply") + " --report " + quoted("r") + " --json " + quoted("j.json")).exit_code,
+      0);
+  EXPECT_EQ(contents(path("r/report.json")), contents(path("j.json")));
+}
+
+TEST_F(ReportCommand, CompareMeasuresTheSecondFromTheFirstAndBothFromTheReference) {
+  write_ball("a.ply", 10);
+  write_ball("b.ply", 10.5);
+  write_ball("scan.ply", 10.1);
+  const json report =
+      figures("compare " + quoted("a.ply") + " " + quoted("b.ply") + " --reference " + quoted("scan.ply"));
+  const auto distance = [](const json& of, double diagonal) {
+    return of["deviation"]["hausdorff_pct_diagonal"].get<double>() / 100 * diagonal;
+  };
+  const double diagonal = report["reference"]["diagonal"];
+  EXPECT_NEAR(distance(report, diagonal), 0.5, 0.03);
+  EXPECT_NEAR(distance(report["compared"]["first"], 1.01 * diagonal), 0.1, 0.03);
+  EXPECT_NEAR(distance(report["compared"]["second"], 1.01 * diagonal), 0.4, 0.03);
+  EXPECT_EQ(report["compared"]["first"]["surface"], figures("check " + quoted("a.ply"))["surface"]);
+  ASSERT_EQ(run_command("compare " + quoted("a.ply") + " " + quoted("b.ply") + " --report " + quoted("r")).exit_code,
+            0);
+  EXPECT_THAT(contents(path("r/report.html")), HasSubstr("a.ply and b.ply"));
+}
+
+TEST_F(ReportCommand, ThePdfIsPartOfAReport) {
+  write_ball("ball.ply");
+  EXPECT_EQ(run_command("check " + quoted("ball.ply") + " --report-pdf").exit_code, 2);
+}
+
+TEST_F(ReportCommand, PagesOfAllCommandsNameTheirFile) {
+  write_ball("ball.ply");
+  for (const std::string command : {"surface", "repair", "simplify"}) {
+    const std::string output = command + ".stl";
+    ASSERT_EQ(run_command(command + " " + quoted("ball.ply") + " -o " + quoted(output) + " --report " + quoted(command))
+                  .exit_code,
+              0);
+    const std::string page = contents(path(command + "/report.html"));
+    EXPECT_THAT(page, HasSubstr("<title>" + output)) << command;
+    EXPECT_THAT(page, Not(HasSubstr("{{")));
+  }
+}
+
+}  // namespace
+}  // namespace scan2fea
