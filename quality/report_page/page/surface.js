@@ -101,6 +101,7 @@ export class Surface {
   fade(opacity, depth = true) {
     this.uniforms.opacity.value = opacity;
     this.material.transparent = opacity < 1;
+    this.material.side = depth || opacity >= 1 ? THREE.DoubleSide : THREE.FrontSide;  // half as many layers
     this.material.depthWrite = depth && opacity >= 1;
     this.material.needsUpdate = true;
   }

@@ -227,7 +227,7 @@ export class View {
     this.solid(corners(points, all(n), n, n === 4 ? ofTetrahedron : ofTriangle, [0]));
     const middle = [0, 1, 2].map((k) => points.filter((_, i) => i % 3 === k).reduce((a, b) => a + b) / n);
     const size = Math.max(...all(n).map((i) => Math.hypot(...[0, 1, 2].map((k) => points[3 * i + k] - middle[k]))));
-    this.watch(middle, this.direction(), Math.max(24 * size, 1e-4));
+    this.watch(middle, this.freeDirection(middle, 4 * size), Math.max(24 * size, 1e-4));
   }
 
   showPlace(place) {
@@ -236,11 +236,33 @@ export class View {
     this.pin.position.set(...at);
     this.pin.scale.setScalar(0.35);
     this.pin.visible = true;
-    this.watch(at, this.nearestNormal(at) || this.direction(), 0.35);
+    this.watch(at, this.freeDirection(at, 0.004), 0.35);
   }
 
   direction() {
     return this.camera.position.clone().sub(this.controls.target).toArray();
+  }
+
+  // From where nothing hides the place, but for what is nearer to it than `near`: the direction that the view has, or
+  // the one that looks at the surface most straightly.
+  freeDirection(at, near) {
+    const normal = new THREE.Vector3(...(this.nearestNormal(at) || this.direction())).normalize();
+    const around = [];
+    for (const x of [-1, 0, 1]) for (const y of [-1, 0, 1]) for (const z of [-1, 0, 1]) if (x || y || z) around.push(new THREE.Vector3(x, y, z + 1e-3).normalize());
+    around.sort((a, b) => b.dot(normal) - a.dot(normal));
+    const own = new THREE.Vector3(...this.direction()).normalize();
+    const candidates = (own.dot(normal) > 0.4 ? [own] : []).concat(normal, around.slice(0, 14));
+    return (candidates.find((d) => !this.isHidden(at, d, near)) || normal).toArray();
+  }
+
+  isHidden(at, direction, near) {
+    const ray = new THREE.Ray(new THREE.Vector3(...at), direction), c = this.result.corners;
+    const [a, b, d, hit] = [0, 0, 0, 0].map(() => new THREE.Vector3());
+    for (let i = 0; i < this.result.count; ++i) {
+      a.fromArray(c, 9 * i); b.fromArray(c, 9 * i + 3); d.fromArray(c, 9 * i + 6);
+      if (ray.intersectTriangle(a, b, d, false, hit) && hit.distanceTo(ray.origin) > near) return true;
+    }
+    return false;
   }
 
   // Of the triangle whose middle is nearest, a little from the side, so that its relief is seen.
