@@ -2,9 +2,11 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 
 namespace scan2fea {
 namespace {
@@ -14,9 +16,34 @@ double farther(double a, double b) {
   return std::abs(b) > std::abs(a) ? b : a;
 }
 
-double signed_distance(const Vec3& place, const Vec3& outward, const TriangleTree& reference) {
-  const ClosestPoint nearest = reference.closest(place);
-  return std::copysign(std::sqrt(nearest.squared_distance), outward.dot(place - nearest.point));
+// Of places near one another, each answer is where the search for the next one begins.
+class SignedDistances {
+ public:
+  explicit SignedDistances(const TriangleTree& tree) : tree_(tree) {}
+
+  ClosestPoint nearest(const Vec3& place) {
+    const ClosestPoint found = last_ ? tree_.closest(place, *last_) : tree_.closest(place);
+    last_ = found.triangle;
+    return found;
+  }
+  double from(const Vec3& place, const Vec3& outward) {
+    const ClosestPoint found = nearest(place);
+    return std::copysign(std::sqrt(found.squared_distance), outward.dot(place - found.point));
+  }
+
+ private:
+  const TriangleTree& tree_;
+  std::optional<std::uint32_t> last_;
+};
+
+// Calls work(index, distances) for all indices, in blocks that are the same for any number of threads.
+template <class Work>
+void for_each_near_the_last(std::size_t count, const TriangleTree& tree, const Work& work) {
+  constexpr std::size_t block = 256;
+  tbb::parallel_for(std::size_t{0}, (count + block - 1) / block, [&](std::size_t b) {
+    SignedDistances distances(tree);
+    for (std::size_t i = block * b; i < std::min(count, block * (b + 1)); ++i) work(i, distances);
+  });
 }
 
 constexpr double third = 1.0 / 3;
@@ -27,13 +54,13 @@ constexpr std::array<std::array<double, 3>, 7> places{
 
 std::vector<double> signed_deviations(const SurfaceMesh& mesh, const TriangleTree& reference) {
   std::vector<double> deviations(mesh.triangles.size());
-  tbb::parallel_for(std::size_t{0}, deviations.size(), [&](std::size_t f) {
+  for_each_near_the_last(deviations.size(), reference, [&](std::size_t f, SignedDistances& distances) {
     const auto& [a, b, c] = mesh.triangles[f];
     const Vec3 outward = area_vector(mesh, mesh.triangles[f]);
     double deviation = 0;
     for (const auto& [u, v, w] : places)
-      deviation = farther(deviation, signed_distance(u * mesh.vertices[a] + v * mesh.vertices[b] + w * mesh.vertices[c],
-                                                     outward, reference));
+      deviation = farther(deviation,
+                          distances.from(u * mesh.vertices[a] + v * mesh.vertices[b] + w * mesh.vertices[c], outward));
     deviations[f] = deviation;
   });
   return deviations;
@@ -41,12 +68,12 @@ std::vector<double> signed_deviations(const SurfaceMesh& mesh, const TriangleTre
 
 std::vector<double> signed_deviations(const TetMesh& mesh, const TriangleTree& reference) {
   std::vector<double> deviations(mesh.outer_faces());
-  tbb::parallel_for(std::size_t{0}, deviations.size(), [&](std::size_t f) {
+  for_each_near_the_last(deviations.size(), reference, [&](std::size_t f, SignedDistances& distances) {
     const SixNodeTriangle nodes = boundary_face_nodes(mesh, mesh.boundary[f]);
     double deviation = 0;
     for (const std::array<double, 3>& place : places) {
       const auto [u, v] = tangents(nodes, place);
-      deviation = farther(deviation, signed_distance(point_on(nodes, place), u.cross(v), reference));
+      deviation = farther(deviation, distances.from(point_on(nodes, place), u.cross(v)));
     }
     deviations[f] = deviation;
   });
@@ -56,9 +83,9 @@ std::vector<double> signed_deviations(const TetMesh& mesh, const TriangleTree& r
 std::vector<double> signed_deviations_of_reference(const SurfaceMesh& reference, const SurfaceMesh& mesh,
                                                    const TriangleTree& tree) {
   std::vector<double> of_vertices(reference.vertices.size());
-  tbb::parallel_for(std::size_t{0}, of_vertices.size(), [&](std::size_t v) {
+  for_each_near_the_last(of_vertices.size(), tree, [&](std::size_t v, SignedDistances& distances) {
     const Vec3& place = reference.vertices[v];
-    const ClosestPoint nearest = tree.closest(place);
+    const ClosestPoint nearest = distances.nearest(place);
     const Vec3 outward = area_vector(mesh, mesh.triangles[nearest.triangle]);
     of_vertices[v] = std::copysign(std::sqrt(nearest.squared_distance), outward.dot(nearest.point - place));
   });

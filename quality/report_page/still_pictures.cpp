@@ -4,6 +4,8 @@
 #include "quality/report_page/picture.hpp"
 #include "quality/triangle_tree.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -69,13 +71,18 @@ std::vector<StillPicture> still_pictures(const ElementMeasures& measures, const 
   const SurfaceMesh& mesh = measures.faces;
   if (mesh.triangles.empty()) return pictures;
   const std::vector<Rgb> colours = colours_of(measures, volume_mesh, pictured_measure(histograms));
-  for (const Direction& direction : directions())
-    pictures.push_back(
-        {draw_picture(mesh, colours, view_of_all(mesh, direction.towards, Vec3::UnitZ())), direction.title});
-  if (worst_place)
-    pictures.push_back(
-        {draw_picture(mesh, colours, close_up(mesh, *worst_place), {.edges = true, .ring = *worst_place}),
-         "The worst place"});
+  const std::size_t views = directions().size();
+  pictures.resize(views + (worst_place ? 1 : 0));
+  tbb::parallel_for(std::size_t{0}, pictures.size(), [&](std::size_t i) {
+    if (i < views) {
+      const Direction& direction = directions()[i];
+      const PictureView view = view_of_all(mesh, direction.towards, Vec3::UnitZ());
+      pictures[i] = {draw_picture(mesh, colours, view), direction.title};
+    } else {
+      const PictureOptions options{.edges = true, .ring = *worst_place};
+      pictures[i] = {draw_picture(mesh, colours, close_up(mesh, *worst_place), options), "The worst place"};
+    }
+  });
   return pictures;
 }
 
