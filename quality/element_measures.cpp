@@ -80,7 +80,9 @@ std::vector<MeasuredElements> histograms_of(const ElementMeasures& measures) {
   const auto add = [&](const char* measure, const char* of, const std::vector<double>& values, const BarScale& scale) {
     if (!values.empty()) list.push_back(count_elements(measure, of, values, scale));
   };
-  add("deviation", "triangles", measures.deviation, scale_around_zero(measures.deviation));
+  constexpr double no_scanner_sees = 1e-6;  // of the diagonal
+  const double least = no_scanner_sees * bounding_box(measures.faces.vertices).diagonal();
+  add("deviation", "triangles", measures.deviation, scale_around_zero(measures.deviation, least > 0 ? least : 1));
   add("edge_ratio", "triangles", measures.face_edge_ratio, {.low = 1, .high = 3, .bars = 40});
   add("min_angle_deg", "triangles", measures.face_min_angle_deg, {.low = 0, .high = 60, .bars = 30});
   add("scaled_jacobian", "tetrahedra", measures.scaled_jacobian, {.low = 0, .high = 1, .bars = 40});

@@ -34,12 +34,12 @@ MeasuredElements count_elements(std::string measure, std::string of, std::span<c
   return measured;
 }
 
-BarScale scale_around_zero(std::span<const double> values) {
+BarScale scale_around_zero(std::span<const double> values, double least) {
   constexpr std::uint16_t bars = 41;
-  double largest = 0;
+  double largest = least;
   for (const double value : values)
     if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
-  const double end = largest > 0 ? rounded_up(largest) : 1;
+  const double end = rounded_up(largest);
   return {.low = -end, .high = end, .bars = bars};
 }
 

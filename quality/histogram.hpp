@@ -35,8 +35,8 @@ struct MeasuredElements {
 MeasuredElements count_elements(std::string measure, std::string of, std::span<const double> values,
                                 const BarScale& scale);
 
-// Around zero, as far as the value farthest from it, rounded up to one or two digits; 1 where all are 0. An odd number
-// of bars, so that one lies around zero.
-BarScale scale_around_zero(std::span<const double> values);
+// Around zero, as far as the value farthest from it, but at least as far as `least`, above 0, so that rounding fills no
+// scale; rounded up to one or two digits. An odd number of bars, so that one lies around zero.
+BarScale scale_around_zero(std::span<const double> values, double least);
 
 }  // namespace scan2fea

@@ -46,8 +46,8 @@ TEST(Histogram, StepsTellTheBars) {
 
 TEST(Histogram, ScalesAroundZeroHoldAllValues) {
   for (const std::vector<double>& values : {std::vector<double>{0.003, -0.0181}, {-1e9, 3}, {1e-30}, {0, 0}, {}}) {
-    const BarScale scale = scale_around_zero(values);
-    EXPECT_GT(scale.high, 0);
+    const BarScale scale = scale_around_zero(values, 1e-6);
+    EXPECT_GE(scale.high, 1e-6);
     EXPECT_EQ(scale.low, -scale.high);
     EXPECT_EQ(scale.bars % 2, 1);
     for (const double value : values) EXPECT_LE(std::abs(value), scale.high);
