@@ -18,6 +18,7 @@ class Reader {
   MeshFile read() {
     while (next_card() && fields_.front() != "ENDDATA") take_card();
     name_sets();
+    raw_.has_own_numbers = true;
     MeshFile read = assemble(raw_, file_.path());
     if (auto* mesh = std::get_if<TetMesh>(&read.mesh)) drop_nodes_of_face_sets(*mesh, "");
     if (includes_) read.warnings.emplace_back("the files that INCLUDE names are not read");

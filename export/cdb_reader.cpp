@@ -33,6 +33,7 @@ class Reader {
       else if (line.starts_with("/UNITS,") && raw_.unit.empty())
         take_unit(line.substr(7));
     }
+    raw_.has_own_numbers = true;
     return assemble(raw_, file_.path());
   }
 

@@ -32,7 +32,7 @@ void write_header(TextOutput& out, const TetMesh& mesh, const FileOptions& optio
 }
 
 void write_nodes(TextOutput& out, const std::vector<Vec3>& nodes, const Numbering& numbers) {
-  out << "NBLOCK,6,SOLID," << numbers.node(nodes.size()) - 1 << "," << nodes.size() << "\n(3i9,6e24.16e3)\n";
+  out << "NBLOCK,6,SOLID," << numbers.largest_node(nodes.size()) << "," << nodes.size() << "\n(3i9,6e24.16e3)\n";
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     write_integer(out, numbers.node(n), 9);
     out << "        0        0";
@@ -56,7 +56,7 @@ void write_nodes(TextOutput& out, const std::vector<Vec3>& nodes, const Numberin
 class Elements {
  public:
   Elements(TextOutput& out, std::size_t count, const Numbering& numbers) : out_(out), numbers_(numbers) {
-    out_ << "EBLOCK,19,SOLID," << numbers_.element(count) - 1 << "," << count << "\n(19i9)\n";
+    out_ << "EBLOCK,19,SOLID," << numbers_.largest_element(count) << "," << count << "\n(19i9)\n";
   }
   ~Elements() { out_ << "       -1\n"; }
   Elements(const Elements&) = delete;

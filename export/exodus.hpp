@@ -19,7 +19,8 @@ Notes write_exodus(const TetMesh& mesh, const std::filesystem::path& file, const
 Notes write_exodus(const NamedSurface& surface, const std::filesystem::path& file, const FileOptions& options = {});
 
 // Reads tetrahedra, or else triangles, with blocks, side sets, node sets and element sets; those without a name are
-// called by their number, "side_set_3". Elements are ordered by the element map, where it numbers them from 1. Throws
+// called by their number, "side_set_3". Numbers are those of the maps of nodes and elements, by which elements are
+// ordered. Throws
 // InvalidInput naming the file: unreadable, netCDF-4, no elements, other solids than tetrahedra, orders mixed.
 MeshFile read_exodus(const std::filesystem::path& file);
 

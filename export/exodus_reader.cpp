@@ -25,6 +25,7 @@ class Reader {
     read_blocks();
     add_elements();
     read_sets();
+    take_numbers();
     return assemble(raw_, path_);
   }
 
@@ -104,16 +105,22 @@ class Reader {
     for (std::size_t e = 0; e < all.size() / nodes; ++e) elements_.push_back({first + e * nodes, used, triangles});
   }
 
+  // One number for each of so many, all different; else nothing.
+  std::vector<std::uint64_t> number_map(const std::string& name, std::size_t count) const {
+    std::vector<std::uint64_t> map = numbers(name), sorted = map;
+    std::ranges::sort(sorted);
+    const bool is_map =
+        map.size() == count && count > 0 && sorted.front() > 0 && std::ranges::adjacent_find(sorted) == sorted.end();
+    return is_map ? map : std::vector<std::uint64_t>();
+  }
+
   // In the order of the element map, where it is one of all elements.
   void add_elements() {
     std::vector<std::uint64_t> order(elements_.size());
     std::iota(order.begin(), order.end(), 0U);
-    const std::vector<std::uint64_t> map = numbers("elem_num_map");
-    std::vector<std::uint64_t> sorted = map;
-    std::ranges::sort(sorted);
-    bool is_map = map.size() == elements_.size();
-    for (std::size_t i = 0; is_map && i < sorted.size(); ++i) is_map = sorted[i] == i + 1;
-    if (is_map) std::ranges::sort(order, {}, [&](std::uint64_t e) { return map[e]; });
+    map_of_elements_ = number_map("elem_num_map", elements_.size());
+    const std::vector<std::uint64_t>& map = map_of_elements_;
+    if (!map.empty()) std::ranges::sort(order, {}, [&](std::uint64_t e) { return map[e]; });
     for (const std::uint64_t e : order) {
       const Element& element = elements_[e];
       const std::span nodes(nodes_.data() + element.first, element.nodes);
@@ -172,11 +179,31 @@ class Reader {
     if (!set.faces.empty()) raw_.face_sets.push_back(std::move(set));
   }
 
+  // Places become the numbers that the maps tell. (In sets, too, nodes and elements go by their places.)
+  void take_numbers() {
+    const std::vector<std::uint64_t> nodes = number_map("node_num_map", raw_.nodes.size());
+    raw_.has_own_numbers = !nodes.empty() || !map_of_elements_.empty();
+    const auto take = [](const std::vector<std::uint64_t>& map, std::uint64_t& place) {
+      if (!map.empty()) place = place > 0 && place <= map.size() ? map[place - 1] : 0;
+    };
+    for (auto* list : {&raw_.node_numbers, &raw_.corners, &raw_.mid_edges, &raw_.triangles})
+      for (std::uint64_t& place : *list) take(nodes, place);
+    for (RawSet& set : raw_.node_sets)
+      for (std::uint64_t& place : set.members) take(nodes, place);
+    for (auto* list : {&raw_.tetrahedron_numbers, &raw_.triangle_numbers})
+      for (std::uint64_t& place : *list) take(map_of_elements_, place);
+    for (RawSet& set : raw_.element_sets)
+      for (std::uint64_t& place : set.members) take(map_of_elements_, place);
+    for (RawFaceSet& set : raw_.face_sets)
+      for (auto& [place, face] : set.faces) take(map_of_elements_, place);
+  }
+
   std::filesystem::path path_;
   InputFile file_;
   NetcdfReader netcdf_;
   std::vector<std::uint64_t> nodes_;  // of all blocks
   std::vector<Element> elements_;     // in the order of the blocks
+  std::vector<std::uint64_t> map_of_elements_;
   RawMesh raw_;
 };
 

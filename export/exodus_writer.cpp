@@ -34,7 +34,8 @@ std::vector<std::int32_t> numbers(std::span<const std::uint32_t> indices) {
 
 class Writer {
  public:
-  Writer(const std::vector<Vec3>& nodes, const std::string& unit, const FileOptions& options) {
+  Writer(const std::vector<Vec3>& nodes, const std::string& unit, const FileOptions& options)
+      : numbers_(options.numbers) {
     out_.attribute({"api_version", 5.22F});
     out_.attribute({"version", 5.22F});
     out_.attribute({"floating_point_word_size", std::int32_t{8}});
@@ -62,6 +63,9 @@ class Writer {
       out_.variable(
           std::string("coord") + "xyz" [k], { points }, std::move(values));
     }
+    std::vector<std::int32_t> map;
+    for (std::size_t n = 0; n < nodes.size(); ++n) map.push_back(static_cast<std::int32_t>(numbers_.node(n)));
+    out_.variable("node_num_map", {points}, std::move(map));
   }
 
   struct Block {
@@ -84,7 +88,7 @@ class Writer {
       connectivity.reserve(nodes * blocks[b].elements.size());
       for (const std::uint32_t e : blocks[b].elements) {
         add_nodes(e, connectivity);
-        order.push_back(static_cast<std::int32_t>(e) + 1);
+        order.push_back(static_cast<std::int32_t>(numbers_.element(e)));
         place_[e] = static_cast<std::int32_t>(order.size());
       }
       const std::size_t rows = out_.dimension("num_el_in_blk" + number, blocks[b].elements.size()),
@@ -160,6 +164,7 @@ class Writer {
   }
 
   NetcdfWriter out_;
+  const Numbering& numbers_;
   std::size_t name_ = 0, line_ = 0;
   std::vector<std::int32_t> place_;  // of an element in the order of the blocks, from 1
 };

@@ -34,10 +34,16 @@ constexpr Holdings all_to(std::uint64_t largest_number) {
           .unit = true,
           .second_order = true,
           .faces_between = true,
-          .largest_number = largest_number};
+          .largest_number = largest_number,
+          .own_numbers = true};
 }
 constexpr Holdings all = all_to(largest_int);
-constexpr Holdings of_exodus = all_to(0);
+// Of those whose elements stand in groups, or that have names in place of numbers.
+constexpr Holdings in_order = [] {
+  Holdings holds = all;
+  holds.own_numbers = false;
+  return holds;
+}();
 constexpr Holdings of_nastran = all_to(99999999), of_ansys = all_to(999999999);  // eight digits, nine
 constexpr Holdings of_viewers{.node_sets = true,
                               .face_sets = true,
@@ -48,9 +54,12 @@ constexpr Holdings of_viewers{.node_sets = true,
                               .faces_between = true};
 // Of a surface.
 constexpr Holdings sets_and_unit{.node_sets = true, .face_sets = true, .unit = true};
-constexpr Holdings numbered{.node_sets = true, .face_sets = true, .unit = true, .largest_number = largest_int};
-constexpr Holdings of_nastran_surface{
-    .node_sets = true, .face_sets = true, .unit = true, .largest_number = of_nastran.largest_number};
+constexpr Holdings numbered_to(std::uint64_t largest_number, bool own_numbers) {
+  return {
+      .node_sets = true, .face_sets = true, .unit = true, .largest_number = largest_number, .own_numbers = own_numbers};
+}
+constexpr Holdings numbered = numbered_to(largest_int, true), numbered_in_order = numbered_to(largest_int, false);
+constexpr Holdings of_nastran_surface = numbered_to(of_nastran.largest_number, true);
 
 constexpr Holdings only_unit{.unit = true};
 constexpr Holdings of_elmer{
@@ -59,18 +68,18 @@ constexpr Holdings of_su2{.face_sets = true, .unit = true};
 
 constexpr auto formats = std::to_array<FileFormat>({
     {".inp", "Abaqus, CalculiX", all, numbered, write_inp, write_inp, read_inp},
-    {".msh", "Gmsh", all, numbered, write_msh, write_msh, read_msh},
+    {".msh", "Gmsh", in_order, numbered_in_order, write_msh, write_msh, read_msh},
     {".vtu", "VTK", of_viewers, sets_and_unit, write_vtu, write_vtu, read_vtk_xml},
     {".bdf", "Nastran", of_nastran, of_nastran_surface, write_bdf, write_bdf, read_bdf},
     {".nas", "Nastran", of_nastran, of_nastran_surface, write_bdf, write_bdf, read_bdf},
     {".unv", "I-DEAS, Salome", all, numbered, write_unv, write_unv, read_unv},
-    {".med", "Salome, Code_Aster", all, numbered, write_med, write_med, read_med},
+    {".med", "Salome, Code_Aster", in_order, numbered_in_order, write_med, write_med, read_med},
     {".xdmf", "DOLFINx", of_viewers, {}, write_xdmf, nullptr, read_xdmf},
-    {".mail", "Code_Aster", all, {}, write_mail, nullptr, read_mail},
+    {".mail", "Code_Aster", in_order, {}, write_mail, nullptr, read_mail},
     {".cdb", "ANSYS", of_ansys, {}, write_cdb, nullptr, read_cdb},
     {".header", "Elmer", of_elmer, {}, write_elmer, nullptr, read_elmer},
-    {".exo", "Exodus II", of_exodus, sets_and_unit, write_exodus, write_exodus, read_exodus},
-    {".e", "Exodus II", of_exodus, sets_and_unit, write_exodus, write_exodus, read_exodus},
+    {".exo", "Exodus II", all, numbered, write_exodus, write_exodus, read_exodus},
+    {".e", "Exodus II", all, numbered, write_exodus, write_exodus, read_exodus},
     {".su2", "SU2", of_su2, {}, write_su2, nullptr, read_su2},
     {".vtp", "VTK", {}, sets_and_unit, nullptr, write_vtp, read_vtk_xml},
     {".vtk", "VTK, legacy", Holdings{.second_order = true}, Holdings{}, nullptr, nullptr, read_vtk_legacy},
@@ -132,12 +141,12 @@ std::string drop_faces_between(TetMesh& mesh) {
 // Whatever the format does not hold of what the options ask for is noted; numbers that do not fit are an error.
 void check_numbers(const FileFormat& format, const Holdings& holds, std::size_t nodes, std::size_t elements,
                    const FileOptions& options, const std::string& file, Notes& notes) {
-  if (options.numbers == Numbering{}) return;
+  if (!options.numbers.are_asked_for() && options.numbers.own.empty()) return;
   if (holds.largest_number == 0) {
     notes.push_back(file + " holds no numbers of nodes and elements: left out the first ones that were given");
     return;
   }
-  const std::uint64_t last = std::max(options.numbers.node(nodes), options.numbers.element(elements)) - 1;
+  const std::uint64_t last = std::max(options.numbers.largest_node(nodes), options.numbers.largest_element(elements));
   if (last > holds.largest_number)
     throw WrongUsage({.what = "a number is too large for " + std::string(format.programs),
                       .where = file,

@@ -24,6 +24,7 @@ struct Holdings {
   bool faces_between = false;   // sets of faces between two bodies; with face_sets
   // Up to which nodes and elements may be numbered (see Numbering); 0 where the format has no numbers of its own.
   std::uint64_t largest_number = 0;
+  bool own_numbers = false;  // whether these may be any
 };
 
 struct FileFormat {
@@ -57,6 +58,10 @@ std::uint64_t first_element_of(const std::filesystem::path& file, const Numberin
 // the format's kind, IoError where the file cannot be written; an earlier file is then untouched.
 Notes write_volume(const TetMesh& mesh, const std::filesystem::path& file, const FileOptions& options = {});
 Notes write_surface(const NamedSurface& surface, const std::filesystem::path& file, const FileOptions& options = {});
+
+// Sets the options to the numbers that another file gave, where the format holds them and none were asked for; else
+// notes what they become.
+Notes keep_numbers(const MeshFile& read, const std::filesystem::path& file, FileOptions& options);
 
 // Reads whatever the file holds. A surface's format is told by its content, where that is certain, and otherwise by the
 // extension. Throws WrongUsage for an unknown extension, InvalidInput for what the readers of the formats say. The

@@ -134,6 +134,7 @@ class Reader {
     raw_.unit = lines_.unit();
     drop_parts_of_surfaces();
     const std::vector<std::size_t>& lines = raw_.corners.empty() ? triangle_lines_ : element_lines_;
+    raw_.has_own_numbers = true;
     MeshFile read = assemble(
         raw_, file_.path(), [&](std::size_t n) { return place(node_lines_[n]); },
         [&](std::size_t e) { return place(lines[e]); });

@@ -11,9 +11,16 @@
 
 namespace scan2fea {
 
+// Of nodes and elements in the order of a mesh.
+struct FileNumbers {
+  std::vector<std::uint64_t> nodes, elements;
+  bool empty() const { return nodes.empty() && elements.empty(); }
+};
+
 // A volume mesh where the file has tetrahedra, else the surface of its triangles.
 struct MeshFile {
   std::variant<NamedSurface, TetMesh> mesh;
+  FileNumbers numbers;  // that the file gives; none where they are 1, 2, ..., or the format has none of its own
   std::vector<std::string> warnings;  // what of the file is not in `mesh`, one line each
   // Per tetrahedron, or triangle, its number in the file, where these are no row from 1 on.
   std::vector<std::uint32_t> element_numbers = {};
@@ -30,16 +37,26 @@ struct ElementField {
 };
 
 // Numbers of nodes and elements in files that have them, so that several meshes go into one deck: from the first on, in
-// the order of the mesh. Of elements that are triangles, behind the tetrahedra.
+// the order of the mesh, or those of their own. Of elements that are triangles, behind the tetrahedra.
 struct Numbering {
   std::uint64_t first_node = 1, first_element = 1;
+  FileNumbers own = {};
+  std::uint64_t largest_of_own = 0;  // of the elements'
 
-  std::uint64_t node(std::uint64_t index) const { return first_node + index; }
-  std::uint64_t element(std::uint64_t index) const { return first_element + index; }
+  std::uint64_t node(std::uint64_t index) const {
+    return index < own.nodes.size() ? own.nodes[index] : first_node + index;
+  }
+  std::uint64_t element(std::uint64_t index) const {
+    if (index < own.elements.size()) return own.elements[index];
+    return own.elements.empty() ? first_element + index : largest_of_own + 1 + index - own.elements.size();
+  }
+  // Of all that have one of their own, and of more elements behind these.
+  std::uint64_t largest_node(std::uint64_t count) const;
+  std::uint64_t largest_element(std::uint64_t count) const;
   // Of what else has numbers, properties and groups: there are no more of them than elements, so that they meet none of
   // another mesh's.
   std::uint64_t other(std::uint64_t number) const { return first_element - 1 + number; }
-  bool operator==(const Numbering&) const = default;
+  bool are_asked_for() const { return first_node != 1 || first_element != 1; }
 };
 
 struct FileOptions {

@@ -90,6 +90,14 @@ class NodeMap {
     return nodes;
   }
 
+  // Of those that are used, in the order of the mesh.
+  std::vector<std::uint64_t> numbers() const {
+    std::vector<std::uint64_t> numbers;
+    for (std::size_t n = 0; n < order_.size(); ++n)
+      if (renumbered_[n] != no_index) numbers.push_back(raw_.node_numbers[order_[n]]);
+    return numbers;
+  }
+
   std::uint32_t index_of(std::uint32_t position) const { return renumbered_[position]; }
 
   // What `number` is in the mesh; nothing where no element uses it.
@@ -122,6 +130,18 @@ TetMesh tetrahedra_of(const RawMesh& raw, NodeMap& map, const Place& place_of_el
   mesh.boundary = find_boundary(mesh.tetrahedra);
   mesh.unit = raw.unit;
   return mesh;
+}
+
+// Nothing where the numbers are 1, 2, ..., or not one for each.
+std::vector<std::uint64_t> numbers_of_note(std::vector<std::uint64_t> numbers, std::size_t count) {
+  if (numbers.size() != count) return {};
+  bool is_plain = true;
+  for (std::size_t i = 0; i < count; ++i) is_plain = is_plain && numbers[i] == i + 1;
+  if (is_plain) return {};
+  std::vector<std::uint64_t> sorted = numbers;
+  std::ranges::sort(sorted);
+  const bool is_unique = std::ranges::adjacent_find(sorted) == sorted.end() && sorted.front() > 0;
+  return is_unique ? std::move(numbers) : std::vector<std::uint64_t>();
 }
 
 // What a scan may have, triangles that repeat a corner among it, is left to the repair.
@@ -181,6 +201,13 @@ MeshFile assemble(const RawMesh& raw, const std::filesystem::path& file, const P
     add_sets(raw, node, surface, read.warnings);
   }
   read.element_numbers = telling_numbers(elements > 0 ? raw.tetrahedron_numbers : raw.triangle_numbers);
+  if (raw.has_own_numbers) {
+    std::vector<std::uint64_t> of_nodes = map.numbers();
+    const std::size_t nodes = of_nodes.size();
+    read.numbers.nodes = numbers_of_note(std::move(of_nodes), nodes);
+    read.numbers.elements = elements > 0 ? numbers_of_note(raw.tetrahedron_numbers, elements)
+                                         : numbers_of_note(raw.triangle_numbers, triangles);
+  }
   if (raw.passed_over > 0)
     read.warnings.push_back(std::to_string(raw.passed_over) + " elements are neither tetrahedra nor triangles");
   return read;

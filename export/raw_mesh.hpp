@@ -41,7 +41,8 @@ struct RawMesh {
   std::vector<RawSet> node_sets, element_sets;
   std::vector<RawFaceSet> face_sets;
   std::string unit;
-  std::size_t passed_over = 0;  // elements that are neither tetrahedra nor triangles
+  bool has_own_numbers = false;  // the numbers of nodes and elements are the file's, and not made up by its reader
+  std::size_t passed_over = 0;   // elements that are neither tetrahedra nor triangles
 
   // Whether a tetrahedron of second order, or of first, is another one than those that there are.
   bool has_other_order(bool second) const { return !corners.empty() && second == mid_edges.empty(); }

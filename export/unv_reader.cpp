@@ -31,6 +31,7 @@ class Reader {
       pass_over_rest();
     }
     if (!any) file_.fail("not a universal file: no dataset begins with -1");
+    raw_.has_own_numbers = true;
     return assemble(raw_, file_.path());
   }
 

@@ -90,6 +90,7 @@ int convert(const ConvertFlags& flags) {
                       .ascii = flags.ascii,
                       .set_prefix = flags.numbering.set_prefix,
                       .numbers = flags.numbering.numbers};
+  tell(keep_numbers(read, flags.output, options));
   if (const auto* surface = std::get_if<NamedSurface>(&read.mesh)) {
     if (!writes_surface(flags.output))
       throw WrongUsage({.what = "a surface holds no tetrahedra to write",
