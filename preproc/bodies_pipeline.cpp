@@ -1,17 +1,21 @@
 #include "preproc/bodies_pipeline.hpp"
 
 #include "preproc/bodies/interface_sheets.hpp"
+#include "preproc/bodies_told.hpp"
+#include "preproc/curved_bodies.hpp"
 #include "preproc/joined_surface.hpp"
 #include "preproc/mesh/error.hpp"
-#include "preproc/mesh/error_text.hpp"
-#include "preproc/mesh/union_find.hpp"
 #include "preproc/named_parts.hpp"
 #include "preproc/second_order.hpp"
 #include "preproc/stage_descriptions.hpp"
 #include "preproc/stage_log.hpp"
+#include "preproc/surface/repair/solid_volume.hpp"
+#include "quality/tetrahedron_measures.hpp"
 #include "quality/triangle_tree.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <utility>
 
 namespace scan2fea {
@@ -29,29 +33,54 @@ class BodiesPipeline {
         log_(stages_, listener) {}
 
   PipelineResult run() {
+    take_scans();
     if (options_.repair) log_.run("repair", [&](StageRecord& record) { repair_all(record); });
     log_.run("contact", [&](StageRecord& record) { join(record); });
-    simplify_outside();
-    log_.run("interfaces", [&](StageRecord& record) { make_interfaces(record); });
+    size_ = options_.simplify->size;
+    make_surfaces();
     log_.run("tetrahedralize", [&](StageRecord& record) { fill(record); });
+    if (is_poor() && options_.simplify->effort != Effort::low)
+      log_.run("renewal", [&](StageRecord& record) { renew(record); });
     if (options_.order == 2) log_.run("second order", [&](StageRecord& record) { curve(record); });
     result_.repaired = std::move(repaired_);
+    result_.given = std::move(given_);
+    result_.solid_volume = 0;
+    for (const MadeBody& body : made_bodies_) *result_.solid_volume += body.volume_of_scan;
     result_.bodies = std::move(made_bodies_);
-    result_.contacts = std::move(contacts_);
+    result_.contacts = std::move(meetings_.contacts);
+    result_.gaps = std::move(meetings_.gaps);
+    result_.touches = std::move(meetings_.touches);
     result_.stages = std::move(stages_);
     return std::move(result_);
   }
 
  private:
+  void take_scans();
   void repair_all(StageRecord& record);
   void join(StageRecord& record);
+  void make_surfaces();
   void simplify_outside();
   void make_interfaces(StageRecord& record);
+  // What a round of renewal may replace.
+  struct Made {
+    PipelineResult result;
+    BodyComplex complex;
+    std::vector<MadeSheet> sheets;
+    BodyComplex straight;
+    std::optional<CurvedBodies> curved;
+    double surface_allows_deg;
+    std::vector<MadeBody> bodies;
+    std::vector<StageRecord> stages;
+  };
+  Made take_made() const;
+  void put_made(Made made);
+  bool is_poor() const;
+  void renew(StageRecord& record);
   void fill(StageRecord& record);
+  TetMesh filled(StageRecord& record);
   void curve(StageRecord& record);
-  std::string interface_name(const Sides& sides) const {
-    return "INTERFACE_" + bodies_[sides.behind].name + "_" + bodies_[sides.front].name;
-  }
+  CurveResult curve_as_fitted(TetMesh& mesh);
+  EdgePlaces nearest_places(const TetMesh& mesh) const;
   void add_sets(const TetMesh& mesh);
 
   std::vector<Body> bodies_;
@@ -62,17 +91,37 @@ class BodiesPipeline {
   std::vector<StageRecord> stages_;
   StageLog log_;
   RepairResult repaired_;
-  BodyComplex scan_;  // the bodies, joined
-  BodyComplex made_;  // the same of what was made
+  SurfaceMesh given_;                   // all scans
+  BodyComplex scan_;                    // the bodies, joined
+  TargetSize size_;                     // of the triangles, as it is asked of the outside
+  BodyComplex made_;                    // the same of what was made
+  std::vector<MadeSheet> sheets_;       // its pieces between bodies
+  BodyComplex straight_;                // what was made, where curved sides have moved it
+  std::optional<CurvedBodies> curved_;  // of order 2
+  double surface_allows_deg_ = 180;     // of dihedral angles
   std::vector<MadeBody> made_bodies_;
-  std::vector<MadeContact> contacts_;
+  Meetings meetings_;
   PipelineResult result_;
 };
 
+void BodiesPipeline::take_scans() {
+  for (const Body& body : bodies_) {
+    const auto first = static_cast<std::uint32_t>(given_.vertices.size());
+    given_.vertices.insert(given_.vertices.end(), body.surface.vertices.begin(), body.surface.vertices.end());
+    for (const auto& [a, b, c] : body.surface.triangles) given_.triangles.push_back({first + a, first + b, first + c});
+    made_bodies_.push_back({.name = body.name, .volume_of_scan = enclosed_volume(body.surface)});
+  }
+}
+
 void BodiesPipeline::repair_all(StageRecord& record) {
-  for (Body& body : bodies_) {
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    Body& body = bodies_[b];
     try {
+      const SurfaceMesh given = *options_.repair == RepairOptions{} ? SurfaceMesh{} : body.surface;
       RepairResult repaired = repair(body.surface, *options_.repair, progress_);
+      made_bodies_[b].volume_of_scan = given.triangles.empty()
+                                           ? volume_of_solid(body.surface, repaired)
+                                           : volume_of_solid(given).value_or(enclosed_volume(body.surface));
       repaired_.changes.insert(repaired_.changes.end(), repaired.changes.begin(), repaired.changes.end());
       repaired_.intersecting_pairs += repaired.intersecting_pairs;
       repaired_.faces_removed += repaired.faces_removed;
@@ -91,48 +140,46 @@ void BodiesPipeline::repair_all(StageRecord& record) {
 void BodiesPipeline::join(StageRecord& record) {
   progress_("contact", 0);
   scan_ = join_bodies(bodies_, joining_);
-  double gap = 0, overlap = 0, area = 0;
-  std::size_t closed = 0;
-  UnionFind joined(bodies_.size());
-  for (const Contact& contact : scan_.contacts) {
-    joined.unite(contact.first, contact.second);
-    contacts_.push_back({.first = bodies_[contact.first].name,
-                         .second = bodies_[contact.second].name,
-                         .set = interface_name({contact.first, contact.second}),
-                         .triangles_closed = contact.triangles,
-                         .largest_gap = contact.largest_gap,
-                         .largest_overlap = contact.largest_overlap,
-                         .tolerance = contact.tolerance,
-                         .at = contact.at});
-    gap = std::max(gap, contact.largest_gap);
-    overlap = std::max(overlap, contact.largest_overlap);
-    area += contact.area;
-    closed += contact.triangles;
-    record.remarks.push_back(bodies_[contact.first].name + " and " + bodies_[contact.second].name +
-                             " touch: " + std::to_string(contact.triangles) + " triangles closed, the largest gap " +
-                             error_text(contact.largest_gap, 3) + ", the largest overlap " +
-                             error_text(contact.largest_overlap, 3) + " (tolerance " +
-                             error_text(contact.tolerance, 3) + "), at " + error_text(contact.at));
+  meetings_ = describe_meetings(scan_, bodies_, record);
+}
+
+TargetSize finer(TargetSize size) {
+  constexpr double times = 2;  // as many triangles
+  if (auto* faces = std::get_if<FaceCount>(&size)) faces->faces *= 2;
+  if (auto* ratio = std::get_if<FaceRatio>(&size)) ratio->of_input *= times;
+  if (auto* edge = std::get_if<MeanEdgeLength>(&size)) edge->length /= std::sqrt(times);
+  if (auto* bound = std::get_if<LargestDeviation>(&size)) bound->distance /= times;  // goes with an edge's square
+  return size;
+}
+
+// With smaller triangles where those of the wanted size cannot stand between the bodies.
+void BodiesPipeline::make_surfaces() {
+  constexpr int most_finer = 2;
+  const std::size_t before = stages_.size();
+  for (int trial = 0;; ++trial) {
+    simplify_outside();
+    try {
+      log_.run("interfaces", [&](StageRecord& record) { make_interfaces(record); });
+      return;
+    } catch (const OutOfTime&) {
+      throw;
+    } catch (const NotMeshable& error) {
+      if (trial == most_finer) throw;
+      stages_.resize(before);
+      StageRecord told;
+      told.name = "interfaces";
+      told.remarks = {std::string(error.parts().what) + ": made again with smaller triangles"};
+      if (listener_) listener_(told);
+    }
+    size_ = finer(size_);
   }
-  std::size_t parts = 0;
-  for (std::uint32_t b = 0; b < bodies_.size(); ++b) parts += joined.find(b) == b;
-  record.changes = {{"bodies", static_cast<double>(bodies_.size())},
-                    {"contacts", static_cast<double>(scan_.contacts.size())},
-                    {"contact_area", area},
-                    {"triangles_closed", static_cast<double>(closed)},
-                    {"largest_gap", gap},
-                    {"largest_overlap", overlap},
-                    {"parts", static_cast<double>(parts)}};
-  if (parts > 1)
-    record.remarks.push_back(std::to_string(parts) +
-                             " parts that do not touch: a solver finds the system singular unless each is held");
 }
 
 void BodiesPipeline::simplify_outside() {
   PipelineOptions options = options_;
+  options.simplify->size = size_;
   options.repair.reset();
   options.tetrahedralize.reset();
-  options.order = 1;
   const Outside outside = outside_of(scan_);
   options.given_sets = outside.sets;
   result_ = run_pipeline(outside.mesh, options, progress_, [&](const StageRecord& record) {
@@ -144,8 +191,9 @@ void BodiesPipeline::simplify_outside() {
 
 void BodiesPipeline::make_interfaces(StageRecord& record) {
   SimplifyOptions options = *options_.simplify;
-  options.size = in_model_units(options.size, bounding_box(result_.scan.vertices));
-  const InterfaceResult made = add_interfaces(scan_, options, result_.line_edges, made_, progress_);
+  options.size = in_model_units(size_, bounding_box(result_.scan.vertices));
+  InterfaceResult made = add_interfaces(scan_, options, result_.line_edges, made_, progress_);
+  sheets_ = std::move(made.made);
   record.changes = {{"sheets", static_cast<double>(made.sheets)},
                     {"faces_before", static_cast<double>(made.faces_before)},
                     {"faces_after", static_cast<double>(made.faces_after)},
@@ -154,14 +202,47 @@ void BodiesPipeline::make_interfaces(StageRecord& record) {
   for (std::uint32_t b = 0; b < bodies_.size(); ++b) {
     const double before = enclosed_volume({scan_.mesh.vertices, triangles_of_body(scan_, b)});
     const double after = enclosed_volume({made_.mesh.vertices, triangles_of_body(made_, b)});
-    made_bodies_.push_back({.name = bodies_[b].name, .volume_of_scan = before, .volume = after, .tetrahedra = 0});
-    record.remarks.push_back(bodies_[b].name + ": volume " + error_text(after) + ", " +
-                             error_text(100 * (after / before - 1), 3) + " % from its scan's");
+    MadeBody& body = made_bodies_[b];
+    body.volume_joined = before;
+    body.volume = after;
+    record.remarks.push_back(told_volume(body));
   }
 }
 
+// Curved sides move the corners, too, so that it is filled after they are fitted; where that fails, as it was.
 void BodiesPipeline::fill(StageRecord& record) {
+  if (options_.order == 2 && result_.curved) {
+    straight_ = made_;
+    progress_.until(progress_.end()).improve([&](const Progress& in_time) {
+      curved_ = fit_bodies(straight_, *result_.curved, result_.surface.vertices, sheets_, in_time);
+    });
+    if (curved_) made_.mesh.vertices = curved_->surface.corners.vertices;
+  }
+  TetMesh mesh;
+  try {
+    mesh = filled(record);
+  } catch (const MeshingFailed&) {
+    if (!curved_) throw;
+  } catch (const NotMeshable&) {
+    if (!curved_) throw;
+  }
+  if (mesh.tetrahedra.empty()) {
+    curved_.reset();
+    made_ = straight_;
+    mesh = filled(record);
+  }
+  add_sets(mesh);
+  mesh.face_sets = result_.face_sets;
+  result_.surface = {made_.mesh.vertices, {}};
+  for (std::size_t f = 0; f < mesh.outer_faces(); ++f) result_.surface.triangles.push_back(made_.mesh.triangles[f]);
+  result_.weak_places = find_weak_places(result_.surface, &mesh, scan_.mesh);
+  refuse_unusable(result_.weak_places);
+  result_.volume_mesh = std::move(mesh);
+}
+
+TetMesh BodiesPipeline::filled(StageRecord& record) {
   const TetrahedralizeOptions options = options_.tetrahedralize.value_or(TetrahedralizeOptions{});
+  record.remarks.clear();
   TetMesh mesh;
   mesh.nodes = made_.mesh.vertices;
   mesh.boundary.resize(made_.mesh.triangles.size());
@@ -172,26 +253,76 @@ void BodiesPipeline::fill(StageRecord& record) {
     made_bodies_[b].tetrahedra = filled.mesh.tetrahedra.size();
     record.remarks.push_back(bodies_[b].name + ": " + std::to_string(made_bodies_[b].tetrahedra) + " tetrahedra");
   }
+  surface_allows_deg_ = least_bound;
   for (std::uint32_t b = 0; b < bodies_.size(); ++b) mesh.element_sets[b].name = bodies_[b].name;
   mesh.faces_between = static_cast<std::size_t>(
       std::ranges::count_if(made_.sides, [](const Sides& sides) { return sides.front != no_body; }));
   record.changes.insert(record.changes.begin(), {{"tetrahedra", static_cast<double>(mesh.tetrahedra.size())},
                                                  {"nodes", static_cast<double>(mesh.nodes.size())},
                                                  {"surface_allows_min_dihedral_deg", least_bound}});
-  add_sets(mesh);
-  mesh.face_sets = result_.face_sets;
-  result_.surface = {made_.mesh.vertices, {}};
-  for (std::size_t f = 0; f < mesh.outer_faces(); ++f) result_.surface.triangles.push_back(made_.mesh.triangles[f]);
-  result_.weak_places = find_weak_places(result_.surface, &mesh, scan_.mesh);
-  refuse_unusable(result_.weak_places);
-  result_.volume_mesh = std::move(mesh);
+  return mesh;
+}
+
+// As of one body, see tetrahedra_search.hpp; small meshes alone, since all of it is made again.
+bool BodiesPipeline::is_poor() const {
+  constexpr double good_deg = 24, of_bound = 0.9, least_deg = 20;
+  constexpr std::size_t most_triangles = 6000;
+  const double enough = std::min(good_deg, std::max(of_bound * surface_allows_deg_, least_deg));
+  return made_.mesh.triangles.size() <= most_triangles &&
+         measure_tetrahedra(*result_.volume_mesh).min_dihedral_deg < enough;
+}
+
+// Smaller triangles, and the better mesh.
+void BodiesPipeline::renew(StageRecord& record) {
+  constexpr int most_rounds = 2;
+  constexpr double worth_it_deg = 1;
+  const auto angle = [&] { return measure_tetrahedra(*result_.volume_mesh).min_dihedral_deg; };
+  const double before = angle();
+  double best_angle = before;
+  int rounds = 0;
+  Made best = take_made();
+  for (; rounds < most_rounds && is_poor() && progress_.may_improve(); ++rounds) {
+    size_ = finer(size_);
+    try {
+      make_surfaces();
+      StageRecord of_filling;
+      fill(of_filling);
+    } catch (const MeshingFailed&) {
+      break;
+    } catch (const NotMeshable&) {
+      break;
+    }
+    if (angle() < best_angle + worth_it_deg) continue;
+    best_angle = angle();
+    best = take_made();
+  }
+  put_made(std::move(best));
+  record.changes = {{"surfaces_made", static_cast<double>(rounds)},
+                    {"min_dihedral_before_deg", before},
+                    {"min_dihedral_after_deg", best_angle},
+                    {"tetrahedra", static_cast<double>(result_.volume_mesh->tetrahedra.size())}};
+}
+
+BodiesPipeline::Made BodiesPipeline::take_made() const {
+  return {result_, made_, sheets_, straight_, curved_, surface_allows_deg_, made_bodies_, stages_};
+}
+
+void BodiesPipeline::put_made(Made made) {
+  result_ = std::move(made.result);
+  made_ = std::move(made.complex);
+  sheets_ = std::move(made.sheets);
+  straight_ = std::move(made.straight);
+  curved_ = std::move(made.curved);
+  surface_allows_deg_ = made.surface_allows_deg;
+  made_bodies_ = std::move(made.bodies);
+  stages_ = std::move(made.stages);
 }
 
 // The sets of the outside as they are now numbered, then the interfaces.
 void BodiesPipeline::add_sets(const TetMesh& mesh) {
   std::vector<NamedSet> interfaces;
   for (auto f = static_cast<std::uint32_t>(mesh.outer_faces()); f < made_.sides.size(); ++f)
-    interfaces[find_or_add_set(interfaces, interface_name(made_.sides[f]))].members.push_back(f);
+    interfaces[find_or_add_set(interfaces, interface_name(bodies_, made_.sides[f]))].members.push_back(f);
   // As the bodies were given.
   const auto order = [&](const NamedSet& set) {
     const Sides& sides = made_.sides[set.members.front()];
@@ -203,17 +334,52 @@ void BodiesPipeline::add_sets(const TetMesh& mesh) {
     made.triangles = set.members.size();
     for (const std::uint32_t f : set.members) made.area += area_vector(made_.mesh, made_.mesh.triangles[f]).norm() / 2;
     for (std::size_t f = 0; f < scan_.sides.size(); ++f)
-      if (scan_.sides[f].front != no_body && interface_name(scan_.sides[f]) == set.name)
+      if (scan_.sides[f].front != no_body && interface_name(bodies_, scan_.sides[f]) == set.name)
         made.area_of_scan += area_vector(scan_.mesh, scan_.mesh.triangles[f]).norm() / 2;
     result_.face_sets.push_back(std::move(set));
   }
 }
 
-// Of edges that stand for lines of the scans, the nodes lie on these lines: the middle of a chord of a rim lies in the
-// plane face inside of it, where the nearest point of the scan is.
 void BodiesPipeline::curve(StageRecord& record) {
   TetMesh& mesh = *result_.volume_mesh;
   add_mid_edge_nodes(mesh);
+  SecondOrderResult result;
+  if (curved_) {
+    result = {.curved = curve_as_fitted(mesh), .straight_triangles = curved_->straight};
+  } else {
+    EdgePlaces to = nearest_places(mesh);
+    result.curved = curve_mid_edge_nodes(mesh, to);
+  }
+  describe(result, InScan({}, nullptr), record);
+  for (std::size_t b = 0; b < made_bodies_.size(); ++b) {
+    made_bodies_[b].volume = volume_of(mesh, mesh.element_sets[b].members);
+    record.remarks.push_back(told_volume(made_bodies_[b]));
+  }
+  measure_sets(result_);
+  result_.weak_places = find_weak_places(result_.surface, &mesh, scan_.mesh);
+}
+
+// Nodes that are eased change volumes a little, which the other nodes of edges take up.
+CurveResult BodiesPipeline::curve_as_fitted(TetMesh& mesh) {
+  CurvedSurface& surface = curved_->surface;
+  EdgePlaces to{surface.edges, surface.mid};
+  CurveResult result = curve_mid_edge_nodes(mesh, to);
+  if (result.eased == 0) return result;
+  const std::size_t corners = surface.corners.vertices.size();
+  std::fill_n(curved_->directions.begin(), corners, Vec3::Zero());
+  for (std::size_t e = 0; e < to.places.size(); ++e)
+    if (surface.mid[e] != to.places[e]) curved_->directions[corners + e].setZero();
+  surface.mid = std::move(to.places);
+  keep_volumes_of_bodies(straight_, curved_->directions, surface);
+  to.places = surface.mid;
+  place_mid_edge_nodes(mesh, to);
+  result.volume = total_volume(mesh);
+  return result;
+}
+
+// Where there was no time, or no way, to fit them. Of edges that stand for lines of the scans, the nodes lie on these
+// lines: the middle of a chord of a rim lies in the plane face inside of it, where the nearest point of the scan is.
+EdgePlaces BodiesPipeline::nearest_places(const TetMesh& mesh) const {
   EdgePlaces to = nearest_on_scan(mesh, TriangleTree(scan_.mesh));
   SurfaceMesh lines;  // a segment is a triangle without area
   const auto add = [&](const Vec3& a, const Vec3& b) {
@@ -234,11 +400,7 @@ void BodiesPipeline::curve(StageRecord& record) {
         to.places[e] = tree.closest_within(middle, length / 4).value_or(ClosestPoint{0, middle, 0}).point;
       }
   }
-  describe({.curved = curve_mid_edge_nodes(mesh, to)}, InScan({}, nullptr), record);
-  for (std::size_t b = 0; b < made_bodies_.size(); ++b)
-    made_bodies_[b].volume = volume_of(mesh, mesh.element_sets[b].members);
-  measure_sets(result_);
-  result_.weak_places = find_weak_places(result_.surface, &mesh, scan_.mesh);
+  return to;
 }
 
 }  // namespace

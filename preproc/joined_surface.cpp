@@ -1,6 +1,7 @@
 #include "preproc/joined_surface.hpp"
 
 #include "preproc/bodies/interface_sheets.hpp"
+#include "preproc/bodies/own_vertices.hpp"
 #include "preproc/mesh/error.hpp"
 #include "preproc/surface/features/curve_sampling.hpp"
 #include "preproc/surface/features/feature_curves.hpp"
@@ -10,17 +11,16 @@
 #include "preproc/surface/simplification/simplify_sheet.hpp"
 #include "quality/deviation_bound.hpp"
 #include "quality/self_intersections.hpp"
+#include "quality/triangle_measures.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 
 namespace scan2fea {
 namespace {
 
-constexpr auto no_index = std::numeric_limits<std::uint32_t>::max();
 // No name that a user can give.
 constexpr char mark = '\x01';
 // Of the diagonal, as in interface_sheets.cpp; and how far chords may be from lines within.
@@ -32,29 +32,6 @@ constexpr double shortening = 0.7;
 constexpr double near_enough = 1.5;
 // Of a body's volume: less is the rounding of coordinates.
 constexpr double exact_volume = 1e-9;
-
-// Corners that triangles use, renumbered in their order.
-struct OwnVertices {
-  std::vector<std::uint32_t> of_complex;  // per own vertex
-  SurfaceMesh mesh;
-};
-
-OwnVertices own_vertices(const std::vector<Vec3>& vertices, std::vector<Triangle> triangles) {
-  std::vector<std::uint32_t> number(vertices.size(), no_index);
-  for (const Triangle& t : triangles)
-    for (const std::uint32_t v : t) number[v] = 0;
-  OwnVertices own;
-  for (std::uint32_t v = 0; v < number.size(); ++v) {
-    if (number[v] == no_index) continue;
-    number[v] = static_cast<std::uint32_t>(own.of_complex.size());
-    own.of_complex.push_back(v);
-    own.mesh.vertices.push_back(vertices[v]);
-  }
-  for (Triangle& t : triangles)
-    for (std::uint32_t& v : t) v = number[v];
-  own.mesh.triangles = std::move(triangles);
-  return own;
-}
 
 // Adds the pieces between bodies one after the other.
 class Interfaces {
@@ -119,20 +96,20 @@ class Interfaces {
   }
 
   void add(const Sheet& sheet, const Progress& progress) {
-    const SheetSurface of_scan = extract_sheet(scan_, sheet, made_.mesh.vertices, candidates_);
+    SheetSurface of_scan = extract_sheet(scan_, sheet, made_.mesh.vertices, candidates_);
+    const auto kept = std::make_shared<const SurfaceMesh>(std::move(of_scan.mesh));
     std::vector<bool> held;
     std::map<std::array<double, 3>, std::uint32_t> vertex_at;
-    for (std::size_t v = 0; v < of_scan.mesh.vertices.size(); ++v) {
+    for (std::size_t v = 0; v < kept->vertices.size(); ++v) {
       const std::uint32_t point = of_scan.point_of_vertex[v];
       held.push_back(point != no_point);
-      const Vec3& p = of_scan.mesh.vertices[v];
+      const Vec3& p = kept->vertices[v];
       if (held.back()) vertex_at[{p.x(), p.y(), p.z()}] = point;
     }
     double border = 0;
-    for (const auto& [a, b] : boundary_edges(of_scan.mesh))
-      border += (of_scan.mesh.vertices[a] - of_scan.mesh.vertices[b]).norm();
+    for (const auto& [a, b] : boundary_edges(*kept)) border += (kept->vertices[a] - kept->vertices[b]).norm();
     const double spacing = border / static_cast<double>(std::max<std::size_t>(1, vertex_at.size()));
-    const SimplifiedSheet made = within_deviation(of_scan.mesh, held, std::max(spacing, mean_edge_), progress);
+    SimplifiedSheet made = within_deviation(*kept, held, std::max(spacing, mean_edge_), progress);
     std::vector<std::uint32_t> number;
     for (std::size_t v = 0; v < made.mesh.vertices.size(); ++v) {
       const Vec3& p = made.mesh.vertices[v];
@@ -143,23 +120,21 @@ class Interfaces {
       made_.mesh.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
       made_.sides.push_back(sheet.sides);
     }
+    result_.made.push_back({.vertices = std::move(number),
+                            .triangles = std::move(made.mesh.triangles),
+                            .on_border = std::move(made.on_border),
+                            .of_scan = kept,
+                            .on_scan = std::move(made.on_scan)});
     ++result_.sheets;
     result_.faces_before += sheet.triangles.size();
-    result_.faces_after += made.mesh.triangles.size();
+    result_.faces_after += result_.made.back().triangles.size();
   }
 
   // The first sheet that is near enough, or the nearest.
   SimplifiedSheet within_deviation(const SurfaceMesh& sheet, const std::vector<bool>& held, double edge_length,
                                    const Progress& progress) {
     SimplifyOptions options = options_;
-    SimplifiedSheet best;
-    try {
-      best = simplify_sheet(sheet, held, edge_length, options, progress);
-    } catch (const NotMeshable&) {
-      // A crease of the piece may end where the outside has no vertex.
-      options.features.angle_deg.reset();
-      best = simplify_sheet(sheet, held, edge_length, options, progress);
-    }
+    SimplifiedSheet best = first_good(sheet, held, edge_length, options, progress);
     auto* asked = std::get_if<LargestDeviation>(&options.size);
     if (asked == nullptr) return best;
     const DeviationReference reference(sheet);
@@ -193,6 +168,40 @@ class Interfaces {
     return best;
   }
 
+  // Of another edge length the lattice is another one, and may be better: the first whose triangles are well shaped, or
+  // the best of them. A crease of the piece may end where the outside has no vertex.
+  static SimplifiedSheet first_good(const SurfaceMesh& sheet, const std::vector<bool>& held, double& edge_length,
+                                    SimplifyOptions& options, const Progress& progress) {
+    constexpr int trials = 4;
+    constexpr double next_shorter = 0.85, good_deg = 25;
+    const double longest = edge_length;
+    SimplifiedSheet best;
+    double best_deg = -1, best_length = longest;
+    for (int trial = 0; trial < trials || best_deg < 0; ++trial) {
+      if (trial == trials) {
+        if (!options.features.angle_deg) break;
+        options.features.angle_deg.reset();
+        edge_length = longest;
+        trial = 0;
+      }
+      try {
+        SimplifiedSheet made = simplify_sheet(sheet, held, edge_length, options, progress);
+        const double deg = measure_triangles(made.mesh).min_angle_deg.min;
+        if (deg > best_deg) {
+          best = std::move(made);
+          best_deg = deg;
+          best_length = edge_length;
+        }
+        if (deg >= good_deg || !progress.may_improve()) break;
+      } catch (const NotMeshable&) {
+        if (best_deg < 0 && trial + 1 == trials && !options.features.angle_deg) throw;
+      }
+      edge_length *= next_shorter;
+    }
+    edge_length = best_length;
+    return best;
+  }
+
   std::uint32_t add_vertex(const Vec3& p, bool is_held) {
     made_.mesh.vertices.push_back(p);
     is_held_.push_back(is_held);
@@ -211,8 +220,8 @@ class Interfaces {
   // By what lies between it and others, where that bends: then nothing is taken from the outside of all, whose volume
   // is right. Else by its own outside. What is plane stays plane.
   void restore_volume(std::uint32_t body) {
-    OwnVertices own = own_vertices(made_.mesh.vertices, triangles_of_body(made_, body));
-    const SurfaceMesh like = own_vertices(scan_.mesh.vertices, triangles_of_body(scan_, body)).mesh;
+    OwnVertices own = surface_of_body(made_, body);
+    const SurfaceMesh like = surface_of_body(scan_, body).mesh;
     std::vector<bool> is_between(made_.mesh.vertices.size(), false);
     for (std::size_t f = 0; f < made_.sides.size(); ++f)
       if (made_.sides[f].front == body || (made_.sides[f].behind == body && made_.sides[f].front != no_body))
@@ -222,16 +231,16 @@ class Interfaces {
     for (const bool between : {true, false}) {
       if (std::abs(enclosed_volume(own.mesh) - wanted) <= exact_volume * wanted) break;
       VertexConstraints constraints;
-      for (std::size_t v = 0; v < own.of_complex.size(); ++v) {
-        const std::uint32_t of_complex = own.of_complex[v];
+      for (std::size_t v = 0; v < own.of_all.size(); ++v) {
+        const std::uint32_t of_complex = own.of_all[v];
         const bool is_free = !is_held_[of_complex] && !is_plane[v] && is_between[of_complex] == between;
         constraints.push_back(is_free ? VertexConstraint::free : VertexConstraint::fixed);
       }
       if (std::ranges::count(constraints, VertexConstraint::free) > 0)
         preserve_volume_clear(own.mesh, like, constraints);
     }
-    for (std::size_t v = 0; v < own.of_complex.size(); ++v) {
-      Vec3& p = made_.mesh.vertices[own.of_complex[v]];
+    for (std::size_t v = 0; v < own.of_all.size(); ++v) {
+      Vec3& p = made_.mesh.vertices[own.of_all[v]];
       result_.largest_volume_shift = std::max(result_.largest_volume_shift, (p - own.mesh.vertices[v]).norm());
       p = own.mesh.vertices[v];
     }
@@ -296,7 +305,7 @@ BodyComplex outside_as_made(const Outside& outside, PipelineResult& result) {
   std::vector<std::uint32_t> order(count);
   for (std::uint32_t f = 0; f < count; ++f) order[f] = f;
   std::ranges::stable_partition(order, [&](std::uint32_t f) { return sides[f].front == no_body; });
-  BodyComplex made{.mesh = {result.surface.vertices, {}}, .sides = {}, .contacts = {}};
+  BodyComplex made{.mesh = {result.surface.vertices, {}}, .sides = {}, .contacts = {}, .gaps = {}, .touches = {}};
   for (const std::uint32_t f : order) {
     made.mesh.triangles.push_back(result.surface.triangles[f]);
     made.sides.push_back(sides[f]);
@@ -313,9 +322,9 @@ InterfaceResult add_interfaces(const BodyComplex& scan, const SimplifyOptions& o
 
 TetrahedralizeResult fill_body(const BodyComplex& made, std::uint32_t body, const TetrahedralizeOptions& options,
                                const Progress& progress, TetMesh& mesh) {
-  const OwnVertices own = own_vertices(made.mesh.vertices, triangles_of_body(made, body));
+  const OwnVertices own = surface_of_body(made, body);
   TetrahedralizeResult filled = tetrahedralize(own.mesh, options, progress);
-  std::vector<std::uint32_t> node = own.of_complex;
+  std::vector<std::uint32_t> node = own.of_all;
   for (std::size_t n = node.size(); n < filled.mesh.nodes.size(); ++n) {
     node.push_back(static_cast<std::uint32_t>(mesh.nodes.size()));
     mesh.nodes.push_back(filled.mesh.nodes[n]);

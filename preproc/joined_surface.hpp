@@ -5,6 +5,7 @@
 #include "preproc/bodies/body_complex.hpp"
 #include "preproc/pipeline.hpp"
 
+#include <memory>
 #include <vector>
 
 namespace scan2fea {
@@ -21,10 +22,20 @@ Outside outside_of(const BodyComplex& scan);
 // bodies apart is taken from the result's sets, the others are by its new numbers.
 BodyComplex outside_as_made(const Outside& outside, PipelineResult& result);
 
+// A piece between bodies, for curved sides.
+struct MadeSheet {
+  std::vector<std::uint32_t> vertices;           // of the complex, by those of the piece
+  std::vector<Triangle> triangles;               // of the piece's vertices
+  std::vector<bool> on_border;                   // per vertex
+  std::shared_ptr<const SurfaceMesh> of_scan;    // to which the next refers
+  std::shared_ptr<const SurfaceOnScan> on_scan;  // what it stands for
+};
+
 struct InterfaceResult {
   std::size_t sheets = 0, faces_before = 0, faces_after = 0;
   double largest_volume_shift = 0;  // of a vertex, model units
   double largest_deviation = 0;     // before it, an upper bound; only where the size is a deviation
+  std::vector<MadeSheet> made;
 };
 
 // Adds the pieces between bodies to `made`, which has the outside, and restores the volume of each body as far as its

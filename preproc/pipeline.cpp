@@ -8,6 +8,7 @@
 #include "preproc/second_order.hpp"
 #include "preproc/stage_descriptions.hpp"
 #include "preproc/stage_log.hpp"
+#include "preproc/surface/curved/fit_curves.hpp"
 #include "preproc/surface/fit/preserve_volume.hpp"
 #include "preproc/surface/kernel/canonical_frame.hpp"
 #include "preproc/surface/kernel/cut_surface.hpp"
@@ -67,6 +68,14 @@ struct Half {
   const MirrorFrame& frame;
 };
 
+// 0 where no number of triangles is asked for.
+double wanted_count(const TargetSize& size, const SurfaceMesh& scan) {
+  if (const auto* faces = std::get_if<FaceCount>(&size)) return static_cast<double>(faces->faces);
+  if (const auto* ratio = std::get_if<FaceRatio>(&size))
+    return ratio->of_input * static_cast<double>(scan.triangles.size());
+  return 0;
+}
+
 // The stages that work on a scan in its own frame, so that the mesh is the same wherever the scan lies. Boxes and balls
 // of the user's are no part of it: with them, and where only tetrahedra are made, it stays where it is.
 class MeshMaker {
@@ -93,8 +102,10 @@ class MeshMaker {
   void adapt(std::optional<StairSteps> stairs);
   void simplify(const Progress& progress);
   void put_cut_onto_plane();
+  void take_fewer_of_default(const Progress& progress);
   void tetrahedralize(const Progress& progress);
   void curve(const Progress& progress);
+  void curve_surface(const Progress& progress);
   void bring_back();
   const SurfaceMesh& scan() const { return placed_ ? *placed_ : scan_; }
 
@@ -106,7 +117,7 @@ class MeshMaker {
   StageLog& log_;
   std::optional<CanonicalFrame> frame_;
   std::optional<SurfaceMesh> placed_;
-  std::optional<Simplification> search_;
+  std::unique_ptr<Simplification> search_;
   std::string voxel_remark_;
   FilledSurface made_;
   const Half* half_;
@@ -152,6 +163,7 @@ FilledSurface MeshMaker::run(const Progress& progress) {
     if (half_ && search_) put_cut_onto_plane();
     if (options_.tetrahedralize) tetrahedralize(progress);
     if (options_.tetrahedralize && options_.order == 2) curve(progress);
+    if (!options_.tetrahedralize && search_ && options_.order == 2) curve_surface(progress);
   } catch (Error& error) {
     ErrorParts parts = error.parts();
     if (parts.at) parts.at = in_scan_.place(*parts.at);
@@ -168,9 +180,10 @@ void MeshMaker::simplify(const Progress& progress) {
     return;
   }
   log_.run("simplify", [&](StageRecord& record) {
-    search_.emplace(scan(), simplification_);
+    search_ = std::make_unique<Simplification>(scan(), simplification_);
     const Progress in_time = options_.tetrahedralize ? in_half_of_the_time(progress) : progress.until(progress.end());
     made_.simplified = search_->run(made_.surface, in_time);
+    take_fewer_of_default(in_time);
     describe(made_.simplified, in_scan_, record);
     if (!voxel_remark_.empty()) record.remarks.push_back(voxel_remark_);
     note_left_out(in_time, "better edge lengths and places of the surface", record, result_);
@@ -192,6 +205,35 @@ void MeshMaker::put_cut_onto_plane() {
     made_.surface.vertices[v] = frame_ ? frame_->to_frame(on_half.vertices[v]) : on_half.vertices[v];
   }
   preserve_volume_clear(made_.surface, scan(), constraints);
+}
+
+// A slender part needs more triangles than the few that were asked for, but none more than where nobody asks.
+void MeshMaker::take_fewer_of_default(const Progress& progress) {
+  constexpr double many_more = 2;  // than were wanted: fewer are not worth another search
+  const double wanted = wanted_count(simplification_.size, scan_);
+  const std::size_t made = made_.surface.triangles.size();
+  if (wanted == 0 || simplification_.method != SimplifyMethod::lattice ||
+      static_cast<double>(made) < many_more * wanted)
+    return;
+  SimplifyOptions by_default = simplification_;
+  by_default.size = SimplifyOptions{}.size;
+  auto search = std::make_unique<Simplification>(scan(), by_default);
+  SurfaceMesh surface;
+  SimplifyResult simplified;
+  try {
+    progress.improve([&](const Progress& in_time) { simplified = search->run(surface, in_time); });
+  } catch (const NotMeshable&) {
+    return;
+  }
+  const std::size_t fewer = surface.triangles.size();
+  if (fewer == 0 || fewer >= made || static_cast<double>(fewer) < wanted ||
+      simplified.method != SimplifyMethod::lattice)
+    return;
+  simplified.size_remark = made_.simplified.size_remark + "; with the default deviation there are fewer, " +
+                           std::to_string(fewer) + ", and these were taken";
+  made_.surface = std::move(surface);
+  made_.simplified = std::move(simplified);
+  search_ = std::move(search);
 }
 
 void MeshMaker::tetrahedralize(const Progress& progress) {
@@ -223,6 +265,21 @@ void MeshMaker::curve(const Progress& progress) {
     if (made_.filled.mesh.order() == 1) curved.curved = curve_on_scan(made_.filled.mesh, scan(), in_time);
     describe(curved, in_scan_, record);
     note_left_out(in_time, "curved sides that are fitted to the scan", record, result_);
+  });
+}
+
+// For want of time there are none.
+void MeshMaker::curve_surface(const Progress& progress) {
+  const Progress in_time = progress.until(progress.end());
+  in_time.improve([&](const Progress& p) {
+    auto curved = std::make_shared<FittedCurves>(search_->curved(made_.simplified, made_.surface, false, p));
+    if (frame_) {
+      frame_->bring_back(curved->surface.corners.vertices, scan_);
+      frame_->bring_back(curved->surface.mid, scan_);
+      const Vec3 origin = frame_->back(Vec3::Zero());
+      for (Vec3& direction : curved->directions) direction = (frame_->back(direction) - origin) / frame_->unit();
+    }
+    result_.curved = std::move(curved);
   });
 }
 

@@ -60,7 +60,8 @@ struct MadeSet {
 // What became of one of several bodies that were given.
 struct MadeBody {
   std::string name;
-  double volume_of_scan = 0;  // after it was repaired and joined with others
+  double volume_of_scan = 0;  // of the solid that it shows as it was given
+  double volume_joined = 0;   // after it was repaired and joined with others
   double volume = 0;          // of the elements as they are
   std::size_t tetrahedra = 0;
 };
@@ -73,6 +74,20 @@ struct MadeContact {
   Vec3 at = Vec3::Zero();  // of the larger of both
 };
 
+// Where two of them face one another across a gap that stays open.
+struct MadeGap {
+  std::string first, second;
+  double size = 0, tolerance = 0;  // where it is narrowest; up to which it would have been closed
+  Vec3 at = Vec3::Zero();
+};
+
+// Where two of them have a line or a point in common, but no area, and so no nodes.
+struct MadeTouch {
+  std::string first, second;
+  double length = 0, moved = 0;  // 0 of a point; how far they were drawn apart
+  Vec3 at = Vec3::Zero();
+};
+
 // What one stage cost and did.
 struct StageRecord {
   std::string name;
@@ -82,8 +97,11 @@ struct StageRecord {
   std::vector<std::string> remarks;  // what a person should know: places of changes, a method that gave way
 };
 
+struct FittedCurves;
+
 struct PipelineResult {
-  // The scan as it was given, where repair changed it. What the result is compared with is `reference()`.
+  // The scan as it was given, where repair changed it, and of several bodies all of theirs. What the result is compared
+  // with is `reference()`.
   std::optional<SurfaceMesh> given;
   std::vector<Vec3> outliers;          // of a cloud, left out
   std::optional<double> solid_volume;  // what `volume_of_solid(reference())` gives, where it is known already
@@ -102,6 +120,10 @@ struct PipelineResult {
   std::vector<MadeSet> sets;           // the same in figures
   std::vector<MadeBody> bodies;        // where several were given (bodies_pipeline.hpp), and where these touch
   std::vector<MadeContact> contacts;
+  std::vector<MadeGap> gaps;  // between them
+  std::vector<MadeTouch> touches;
+  // Of `surface`, of order 2 without a volume mesh: what bodies_pipeline.hpp makes of the outside of several.
+  std::shared_ptr<const FittedCurves> curved;
   SurfaceFaces faces;  // of the scan as it came to simplification; none where nothing asked for them
   std::vector<StageRecord> stages;
   std::vector<WeakPlace> weak_places;  // of what was made; none of them is unusable

@@ -70,13 +70,24 @@ std::vector<BoundaryFace> outer_faces_by_element(const TetMesh& mesh) {
   return faces;
 }
 
-FlatPieces flat_pieces(const TetMesh& mesh, double tolerance) {
+FlatPieces flat_pieces(const TetMesh& mesh, double tolerance, FacesBetween between) {
   FlatPieces pieces;
   pieces.nodes = mesh.nodes;
-  for (const BoundaryFace f : outer_faces_by_element(mesh)) {
-    const Triangle corners = boundary_triangle(mesh, f), middles = boundary_mid_edge_nodes(mesh, f);
-    pieces.curved.push_back({{corners[0], corners[1], corners[2], middles[0], middles[1], middles[2]}});
+  const auto add = [&](const std::array<std::uint32_t, 6>& nodes) {
+    pieces.curved.push_back({nodes});
     add_pieces(pieces, static_cast<std::uint32_t>(pieces.curved.size() - 1), tolerance);
+  };
+  for (const BoundaryFace f : outer_faces_by_element(mesh)) {
+    const auto [a, b, c] = boundary_triangle(mesh, f);
+    const auto [ab, bc, ca] = boundary_mid_edge_nodes(mesh, f);
+    add({a, b, c, ab, bc, ca});
+  }
+  if (between == FacesBetween::left_out) return pieces;
+  for (std::size_t i = mesh.outer_faces(); i < mesh.boundary.size(); ++i) {
+    const auto [a, b, c] = boundary_triangle(mesh, mesh.boundary[i]);
+    const auto [ab, bc, ca] = boundary_mid_edge_nodes(mesh, mesh.boundary[i]);
+    add({a, b, c, ab, bc, ca});
+    add({a, c, b, ca, bc, ab});
   }
   return pieces;
 }

@@ -18,7 +18,8 @@ struct CurvedTriangle {
 // neighbours are cut differently, there are gaps of less than the tolerance.
 struct FlatPieces {
   SurfaceMesh mesh;
-  std::vector<CurvedTriangle> curved;                  // in the order of outer_faces_by_element
+  // Those of outer_faces_by_element, or of TetMesh::boundary where those between bodies are wanted.
+  std::vector<CurvedTriangle> curved;
   std::vector<Vec3> nodes;                             // of the whole mesh
   std::vector<std::uint32_t> of_piece;                 // per flat triangle the curved one
   std::vector<std::array<Eigen::Vector2d, 3>> places;  // and its corners there: second and third coordinate
@@ -27,14 +28,16 @@ struct FlatPieces {
   Vec3 on_curve(std::uint32_t piece, double first, double second) const;
 };
 
-// The boundary without the faces between bodies, by element and face: the order that any file of the mesh gives, so that
-// sums over it, and samples of it, are those of the mesh that is read again.
+// The boundary without the faces between bodies, by element and face: the order that any file of the mesh gives, so
+// that sums over it, and samples of it, are those of the mesh that is read again.
 std::vector<BoundaryFace> outer_faces_by_element(const TetMesh& mesh);
 
 // Precondition: the mesh is of second order. No point of a flat triangle is farther than `tolerance`, model units, from
-// the curved one, unless that takes more than `most_cuts` along an edge; nor the other way round. O(n + pieces).
+// the curved one, unless that takes more than `most_cuts` along an edge; nor the other way round. Of the outside, or of
+// all bodies, faces between two of them once for either. O(n + pieces).
 inline constexpr int most_cuts = 16;
-FlatPieces flat_pieces(const TetMesh& mesh, double tolerance);
+enum class FacesBetween { left_out, of_either };
+FlatPieces flat_pieces(const TetMesh& mesh, double tolerance, FacesBetween between = FacesBetween::left_out);
 
 // What is near enough for figures of a deviation: a hundredth of the distance at which meshes are made by default, of
 // the diagonal of what they are compared with.

@@ -178,9 +178,12 @@ Deviation measure_deviation(const SurfaceMesh& mesh, const SurfaceMesh& referenc
 }
 
 Deviation measure_deviation(const TetMesh& mesh, const SurfaceMesh& reference, const DeviationOptions& options) {
-  if (mesh.order() == 1) return measure_deviation(boundary_surface(mesh), reference, options);
+  if (mesh.order() == 1)
+    return measure_deviation(options.reference_is_of_bodies ? surfaces_of_bodies(mesh) : boundary_surface(mesh),
+                             reference, options);
   const double tolerance = flat_enough_of_diagonal * bounding_box(reference.vertices).diagonal();
-  const FlatPieces pieces = flat_pieces(mesh, tolerance);
+  const FlatPieces pieces =
+      flat_pieces(mesh, tolerance, options.reference_is_of_bodies ? FacesBetween::of_either : FacesBetween::left_out);
   return between(Surface(pieces, mesh), Surface(reference), options);
 }
 

@@ -21,6 +21,9 @@ struct DeviationOptions {
   std::uint64_t seed = 1;  // of the random points
   // What the reference encloses, where its own faces do not tell: a scan that is open, or crosses itself.
   std::optional<double> reference_volume = std::nullopt;
+  // Of a mesh of several bodies: the reference is all of their surfaces, so that faces between two bodies count, once
+  // for either; else the outside alone is compared.
+  bool reference_is_of_bodies = false;
 };
 
 // From the vertices and samples of one surface to the other, in per cent of the diagonal of the reference's box.

@@ -13,8 +13,9 @@
 //   faces [{name, kind, area, triangles, place, what its kind has}],
 //   sets [{name, kind, area, area_of_scan, area_difference_pct, triangles; of a file's elements volume, tetrahedra, of
 //          nodes nodes}],
-//   bodies [{name, volume, volume_of_scan, volume_difference_pct, tetrahedra}],
+//   bodies [{name, volume, volume_of_scan, volume_difference_pct, volume_joined, tetrahedra}],
 //   contacts [{bodies, set, triangles_closed, largest_gap, largest_overlap, tolerance, place}],
+//   gaps [{bodies, size, tolerance, place}], touches [{bodies, kind, length, drawn_apart, place}],
 //   regions [{name, area, faces}], gates [{name, operator, value, limit, pass}]
 // The command adds where it comes from (program, command, inputs, output, size, reference) and single elements
 // (histograms, worst_elements).

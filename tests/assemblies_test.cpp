@@ -49,7 +49,7 @@ TEST(Assemblies, AllConformAndKeepTheirVolumes) {
       for (std::size_t b = 0; b < bodies.size(); ++b) {
         double volume = 0;
         for (const std::uint32_t t : mesh.element_sets[b].members) volume += volume_of(mesh, t);
-        const double difference = std::abs(volume / result.bodies[b].volume_of_scan - 1);
+        const double difference = std::abs(volume / result.bodies[b].volume_joined - 1);
         EXPECT_LT(difference, 1e-4) << bodies[b].name;
         largest_difference = std::max(largest_difference, difference);
       }

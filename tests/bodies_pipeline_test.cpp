@@ -2,6 +2,7 @@
 #include "preproc/bodies_pipeline.hpp"
 
 #include "preproc/mesh/error.hpp"
+#include "quality/deviation.hpp"
 #include "quality/self_intersections.hpp"
 #include "quality/tetrahedron_measures.hpp"
 #include "tests/touching_bodies.hpp"
@@ -170,6 +171,40 @@ TEST(BodiesPipeline, MidEdgeNodesOfInterfacesAreSharedAndOnThem) {
   EXPECT_NEAR(result.sets[0].area, 100 * pi, 0.2);
 }
 
+// Two parts of one ball, and a pin in its bore, of so many triangles that what they stand for is round.
+std::vector<std::vector<Body>> round_bodies() {
+  const SurfaceMesh shell = analytic::join(analytic::sphere(10, 5), analytic::reversed(analytic::sphere(6, 5)));
+  return {{{"SHELL", shell}, {"BALL", turned(analytic::sphere(6, 5), 0.4)}},
+          {{"BRACKET", analytic::bored_block({30, 20, 10}, 5, 256, 30)},
+           {"PIN", moved(analytic::cylinder(5, 24, 200, 40), {0, 0, -7})}}};
+}
+
+TEST(BodiesPipeline, CurvedSidesAreFittedBetweenBodiesToo) {
+  for (const std::vector<Body>& bodies : round_bodies()) {
+    SCOPED_TRACE(bodies[0].name);
+    double rms_of_straight = 0;
+    for (const int order : {1, 2}) {
+      PipelineOptions options;
+      options.order = order;
+      const PipelineResult result = run_pipeline_of_bodies(bodies, {}, options);
+      const TetMesh& mesh = *result.volume_mesh;
+      const Deviation deviation =
+          measure_deviation(mesh, result.reference(), {.samples = 50000, .reference_is_of_bodies = true});
+      if (order == 1)
+        rms_of_straight = deviation.rms_pct_diagonal;
+      else
+        EXPECT_LT(deviation.rms_pct_diagonal, 0.4 * rms_of_straight);
+      for (std::size_t b = 0; b < bodies.size(); ++b)
+        EXPECT_NEAR(result.bodies[b].volume, result.bodies[b].volume_joined, 1e-6 * result.bodies[b].volume_joined)
+            << bodies[b].name << " of order " << order;
+      EXPECT_NEAR(total_volume(mesh), result.bodies[0].volume + result.bodies[1].volume, 1e-9 * total_volume(mesh));
+      const TetSummary shape = measure_tetrahedra(mesh);
+      EXPECT_EQ(shape.inverted, 0U);
+      EXPECT_GT(shape.scaled_jacobian.min, 0.15);
+    }
+  }
+}
+
 TEST(BodiesPipeline, ADeviationThatIsRequiredHoldsForInterfacesToo) {
   PipelineOptions options;
   options.simplify->size = LargestDeviation{.distance = 0.03};
@@ -182,6 +217,48 @@ TEST(BodiesPipeline, ADeviationThatIsRequiredHoldsForInterfacesToo) {
   const TetMesh& mesh = *result.volume_mesh;
   for (const std::uint32_t n : nodes_of_faces(mesh, mesh.face_sets[0].members))
     EXPECT_NEAR(mesh.nodes[n].head<2>().norm(), 5, 0.04);
+}
+
+TEST(BodiesPipeline, BodiesThatTouchAtALineOrAPointAreMeshedAndTold) {
+  SurfaceMesh ball = analytic::sphere(3, 3);
+  double lowest = 0;
+  for (const Vec3& p : ball.vertices) lowest = std::min(lowest, p.z());
+  ball = moved(ball, {5, 4, 2 - lowest});
+  const Body base{"BASE", box(10, 8, 2, 1, {0, 0, 0})};
+  for (const Body& other : {Body{"BY_AN_EDGE", box(4, 8, 3, 0.9, {10, 0, 2})},
+                            Body{"BY_A_CORNER", box(4, 4, 3, 0.9, {10, 8, 2})}, Body{"BALL", ball}}) {
+    const PipelineResult result = run_pipeline_of_bodies({base, other});
+    EXPECT_EQ(result.touches.size(), 1U) << other.name;
+    EXPECT_TRUE(result.contacts.empty()) << other.name;
+    const TetMesh& mesh = *result.volume_mesh;
+    EXPECT_EQ(find_boundary(mesh.tetrahedra).size(), mesh.outer_faces());
+    EXPECT_GT(measure_tetrahedra(mesh).min_dihedral_deg, 20) << other.name;
+    for (const MadeBody& body : result.bodies)
+      EXPECT_NEAR(body.volume, body.volume_of_scan, 1e-5 * body.volume_of_scan) << other.name;
+  }
+}
+
+double farthest_off_plane(const TetMesh& mesh, const NamedSet& set, double z) {
+  double farthest = 0;
+  for (const std::uint32_t n : nodes_of_faces(mesh, set.members))
+    farthest = std::max(farthest, std::abs(mesh.nodes[n].z() - z));
+  return farthest;
+}
+
+// Boards, laminates, gaskets.
+TEST(BodiesPipeline, LayersMeetInPlanes) {
+  for (const double thickness : {0.4, 1.0, 3.0}) {
+    std::vector<Body> layers;
+    for (int k = 0; k < 3; ++k)
+      layers.push_back({"L" + std::to_string(k), box(40, 40, thickness, 50, {0, 0, k * thickness})});
+    const PipelineResult result = run_pipeline_of_bodies(layers);
+    const TetMesh& mesh = *result.volume_mesh;
+    for (std::size_t k = 0; k < 2; ++k)
+      EXPECT_LT(farthest_off_plane(mesh, mesh.face_sets[k], static_cast<double>(k + 1) * thickness), 1e-9) << thickness;
+    for (const MadeBody& body : result.bodies)
+      EXPECT_NEAR(body.volume, 1600 * thickness, 1e-6 * 1600 * thickness) << thickness;
+    EXPECT_EQ(measure_tetrahedra(mesh).inverted, 0U);
+  }
 }
 
 TEST(BodiesPipeline, SetsOfTheUserAreOnTheOutside) {

@@ -203,5 +203,18 @@ TEST(Pipeline, SaysThatNothingIsOpenToBeThickened) {
   EXPECT_EQ(result.stages[0].remarks, std::vector<std::string>{"nothing was thickened: no sheet is open"});
 }
 
+// Where few triangles cannot be well shaped, no more are made than where nobody asks for a number.
+TEST(Pipeline, FewTrianglesOfASlenderPartAreNoMoreThanTheDefaultMakes) {
+  for (const SurfaceMesh& part :
+       {analytic::box({200, 1, 1}, 200), analytic::cylinder(0.5, 100, 24, 1), analytic::box({120, 6, 0.5}, 200)}) {
+    PipelineOptions options;
+    options.tetrahedralize.reset();
+    const std::size_t by_default = run_pipeline(part, options).surface.triangles.size();
+    options.simplify->size = FaceCount{100};
+    const std::size_t few = run_pipeline(part, options).surface.triangles.size();
+    EXPECT_LE(few, std::max<std::size_t>(by_default, 100));
+  }
+}
+
 }  // namespace
 }  // namespace scan2fea

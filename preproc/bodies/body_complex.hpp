@@ -37,10 +37,28 @@ struct Contact {
   Vec3 at = Vec3::Zero();                           // the place of the larger of them
 };
 
+// Where two bodies face one another without touching.
+struct OpenGap {
+  std::uint32_t first = no_body, second = no_body;
+  double size = 0;       // where it is narrowest, model units
+  double tolerance = 0;  // up to which it would have been closed
+  Vec3 at = Vec3::Zero();
+};
+
+// Where two bodies have a line or a point in common but no area. They share nothing there.
+struct Touch {
+  std::uint32_t first = no_body, second = no_body;
+  double length = 0;  // of the diagonal of its box; 0 of a point
+  double moved = 0;   // how far the second, or else the first, was drawn back there
+  Vec3 at = Vec3::Zero();
+};
+
 struct BodyComplex {
   SurfaceMesh mesh;
   std::vector<Sides> sides;  // per triangle
   std::vector<Contact> contacts;
+  std::vector<OpenGap> gaps;
+  std::vector<Touch> touches;
 };
 
 struct JoinOptions {
@@ -49,10 +67,15 @@ struct JoinOptions {
   std::optional<double> tolerance;
 };
 
-// The first of two bodies gives the surface on which they meet. Bodies that do not touch stay as they are; one may lie
-// within another's cavity. Throws NotMeshable with the place where bodies overlap by more than the tolerance or, where
-// it was not given, face one another across a gap of up to ten times of it, and where the border of a contact is not
-// clear. O(n log n) and the product of the lengths of two borders that meet.
+// By no more of its volume may a body change where its contacts are closed.
+inline constexpr double most_volume_change = 0.05;
+
+// The first of two bodies gives the surface on which they meet. Bodies that do not touch stay as they are, wider gaps
+// are told; one may lie within another's cavity. Those that touch along a line or at a point alone are drawn apart by
+// about a millionth of the diagonal, and told. Throws NotMeshable with the place where bodies overlap by more than the
+// tolerance or, where it was not given, face one another across a gap of up to ten times of it, where the border of a
+// contact is not clear, and where a body's volume would change by more than the above. A tolerance that is advised was
+// tried. O(n log n) and the product of the lengths of two borders that meet; an error costs several times as much.
 BodyComplex join_bodies(std::span<const Body> bodies, const JoinOptions& options = {});
 
 // The closed surface of one body, with its vertices as they are numbered in the complex, turned outwards.

@@ -1,258 +1,23 @@
 #include "preproc/bodies/body_complex.hpp"
-#include "preproc/bodies/contact_border.hpp"
-#include "preproc/bodies/contact_faces.hpp"
-#include "preproc/bodies/contact_gap.hpp"
-#include "preproc/bodies/contact_refinement.hpp"
-#include "preproc/bodies/facing_surface.hpp"
-#include "preproc/bodies/imprint.hpp"
-#include "preproc/bodies/split_surface.hpp"
+#include "preproc/bodies/join_body.hpp"
+#include "preproc/bodies/touching_places.hpp"
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/error_text.hpp"
 #include "preproc/volume/inside_test.hpp"
-#include "quality/self_intersections.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
 namespace scan2fea {
 namespace {
 
-// Up to so many tolerances a gap may be one that was to be closed.
-constexpr double doubtful_gap = 10;
-constexpr double rounding = 1e-6;           // of the diagonal
-constexpr double shortest_contact = 0.005;  // along a rim, of the diagonal
-// Of the diagonal: how exactly a contact's border is found where no rim is, but no finer than so many tolerances.
-constexpr double resolution = 0.004, resolution_in_tolerances = 2;
-
-std::vector<std::uint32_t> all_of(const SurfaceMesh& mesh) {
-  std::vector<std::uint32_t> all(mesh.triangles.size());
-  for (std::uint32_t f = 0; f < all.size(); ++f) all[f] = f;
-  return all;
-}
-
-bool are_apart(const BoundingBox& a, const BoundingBox& b, double distance) {
-  return (a.low.array() > b.high.array() + distance).any() || (b.low.array() > a.high.array() + distance).any();
-}
-
-// Adds one body to those that are joined already.
-class Join {
- public:
-  Join(BodyComplex& complex, std::span<const Body> bodies, std::uint32_t added, const JoinOptions& options)
-      : complex_(complex), bodies_(bodies), added_(added), options_(options), body_(bodies[added].surface) {
-    for (std::uint32_t f = 0; f < complex.sides.size(); ++f)
-      if (complex.sides[f].front == no_body) outer_.push_back(f);
-    fuzz_ =
-        rounding * std::max(bounding_box(complex.mesh.vertices).diagonal(), bounding_box(body_.vertices).diagonal());
-  }
-
-  void run() {
-    const std::vector<std::uint32_t> own = all_of(body_);
-    tolerance_ = options_.tolerance.value_or(contact_tolerance(complex_.mesh, outer_, body_, own));
-    const FacingSurface on_complex(complex_.mesh, outer_, fuzz_), on_body(body_, own, fuzz_);
-    const double step = shortest_contact * bounding_box(body_.vertices).diagonal();
-    refuse_overlap();
-    if (!options_.tolerance) refuse_gaps(on_complex, on_body);
-    SplitSurface first(complex_.mesh), second(body_);
-    imprint_rims(first, on_complex, body_, own, tolerance_, step);
-    imprint_rims(second, on_body, complex_.mesh, outer_, tolerance_, step);
-    std::vector<bool> outer(first.mesh().triangles.size());
-    for (std::uint32_t f = 0; f < outer.size(); ++f) outer[f] = complex_.sides[first.origin(f)].front == no_body;
-    std::vector<bool> all(second.mesh().triangles.size(), true);
-    const double edge =
-        std::max(resolution * bounding_box(body_.vertices).diagonal(), resolution_in_tolerances * tolerance_);
-    const std::size_t contacts = complex_.contacts.size();
-    try {
-      glue(first, second, outer, all, on_complex, on_body, tolerance_);
-    } catch (const NotMeshable&) {
-      // Where a contact ends at no rim, triangles may be too large for its border.
-      complex_.contacts.resize(contacts);
-      refine_contact_border(first, outer, on_complex, on_body, tolerance_, edge);
-      refine_contact_border(second, all, on_body, on_complex, tolerance_, edge);
-      glue(std::move(first), std::move(second), outer, all, on_complex, on_body, edge);
-    }
-  }
-
- private:
-  [[noreturn]] void fail(std::string what, double value, std::string advice, const Vec3& place,
-                         std::uint32_t other) const {
-    throw NotMeshable({.what = std::move(what),
-                       .where = bodies_[other].name + " and " + bodies_[added_].name,
-                       .value = error_text(value),
-                       .limit = error_text(tolerance_),
-                       .advice = std::move(advice),
-                       .at = place});
-  }
-
-  // Vertices of one that lie deeper in the other.
-  void refuse_overlap() const {
-    SurfaceMesh outer{complex_.mesh.vertices, {}};
-    for (const std::uint32_t f : outer_) outer.triangles.push_back(complex_.mesh.triangles[f]);
-    const BoundingBox own_box = bounding_box(body_.vertices), box = bounding_box(outer.vertices);
-    if (are_apart(own_box, box, 0)) return;
-    const InsideTest in_complex(outer), in_body(body_);
-    refuse_inside(in_complex, outer, in_body);
-    double deepest = tolerance_;
-    Vec3 place;
-    std::uint32_t other = no_body;
-    for (const Vec3& p : body_.vertices) {
-      const InsideTest::Answer answer = in_complex(p);
-      if (!answer.inside || answer.distance <= deepest) continue;
-      deepest = answer.distance;
-      place = p;
-      other = complex_.sides[outer_[answer.triangle]].behind;
-    }
-    for (const std::uint32_t f : outer_)
-      for (const std::uint32_t v : complex_.mesh.triangles[f]) {
-        const Vec3& p = complex_.mesh.vertices[v];
-        if (const InsideTest::Answer answer = in_body(p); answer.inside && answer.distance > deepest) {
-          deepest = answer.distance;
-          place = p;
-          other = complex_.sides[f].behind;
-        }
-      }
-    if (other != no_body) fail_overlap(deepest, place, other);
-  }
-
-  // A tolerance that is larger than a body would hide that two solids are in one place.
-  void refuse_inside(const InsideTest& in_complex, const SurfaceMesh& outer, const InsideTest& in_body) const {
-    if (!options_.tolerance) return;
-    const double exact = contact_tolerance(complex_.mesh, outer_, body_, all_of(body_));
-    const auto lies_in = [&](const SurfaceMesh& mesh, const InsideTest& other) {
-      return std::ranges::all_of(mesh.triangles, [&](const Triangle& t) {
-        return std::ranges::all_of(t, [&](std::uint32_t v) {
-          const InsideTest::Answer answer = other(mesh.vertices[v]);
-          return answer.inside && answer.distance > exact;
-        });
-      });
-    };
-    if (!lies_in(body_, in_complex) && !lies_in(outer, in_body)) return;
-    const Vec3& place = body_.vertices[body_.triangles.front()[0]];
-    const InsideTest::Answer answer = in_complex(place);
-    fail("one body lies inside of the other's solid", answer.distance,
-         "subtract one from the other where they are drawn", place, complex_.sides[outer_[answer.triangle]].behind);
-  }
-
-  [[noreturn]] void fail_overlap(double depth, const Vec3& place, std::uint32_t other) const {
-    fail("the bodies overlap", depth, "--contact " + error_text(1.01 * depth) + ", or move them apart", place, other);
-  }
-
-  // Where the surfaces face one another without touching; a rounding that departs from a contact is none.
-  void refuse_gaps(const FacingSurface& on_complex, const FacingSurface& on_body) const {
-    std::optional<Gap> gap = find_gap(body_, all_of(body_), on_body, on_complex, tolerance_, doubtful_gap * tolerance_);
-    const std::optional<Gap> other =
-        find_gap(complex_.mesh, outer_, on_complex, on_body, tolerance_, doubtful_gap * tolerance_);
-    std::uint32_t behind = gap ? complex_.sides[gap->foot].behind : no_body;
-    if (other && (!gap || other->height > gap->height)) {
-      gap = other;
-      behind = complex_.sides[gap->triangle].behind;
-    }
-    if (gap)
-      fail("there is a gap between the bodies", gap->height,
-           "--contact " + error_text(1.01 * gap->height) + " to close it, --contact " + error_text(tolerance_) +
-               " to leave it",
-           gap->place, behind);
-  }
-
-  // `outer`, `own`: the triangles of both that may touch; `exactness`: of the borders of the contact.
-  void glue(SplitSurface first, SplitSurface second, const std::vector<bool>& outer, const std::vector<bool>& own,
-            const FacingSurface& on_complex, const FacingSurface& on_body, double exactness) {
-    std::vector<bool> of_first = contact_faces(first, outer, on_complex, on_body, tolerance_);
-    std::vector<bool> of_second = contact_faces(second, own, on_body, on_complex, tolerance_);
-    note_contacts(second, of_second, on_complex, on_body);
-    const auto border = border_of_marked(first.mesh(), outer, of_first);
-    const auto border_of_second = border_of_marked(second.mesh(), own, of_second);
-    if (border.empty() != border_of_second.empty()) fail_unclear(first, border, second, border_of_second);
-    const std::vector<std::uint32_t> image =
-        match_borders(first, border, second, border_of_second, tolerance_, exactness);
-    // What the borders' new vertices have split.
-    for (auto f = static_cast<std::uint32_t>(of_first.size()); f < first.mesh().triangles.size(); ++f)
-      of_first.push_back(of_first[first.split_from(f)]);
-    for (auto f = static_cast<std::uint32_t>(of_second.size()); f < second.mesh().triangles.size(); ++f)
-      of_second.push_back(of_second[second.split_from(f)]);
-    take(first, of_first, second, of_second, image);
-  }
-
-  [[noreturn]] void fail_unclear(const SplitSurface& first, const std::vector<FeatureEdge>& border,
-                                 const SplitSurface& second, const std::vector<FeatureEdge>& other) const {
-    const Vec3 place = border.empty() ? second.point(other.front()[0]) : first.point(border.front()[0]);
-    throw NotMeshable({.what = "the bodies touch, but it is not clear where",
-                       .where = bodies_[added_].name,
-                       .value = {},
-                       .limit = {},
-                       .advice = "another --contact",
-                       .at = place});
-  }
-
-  void note_contacts(const SplitSurface& second, const std::vector<bool>& of_second, const FacingSurface& on_complex,
-                     const FacingSurface& on_body) {
-    std::map<std::uint32_t, Contact> contacts;
-    for (std::uint32_t f = 0; f < of_second.size(); ++f) {
-      if (!of_second[f]) continue;
-      const Triangle& t = second.triangle(f);
-      const Vec3 middle = centroid(second.mesh(), t);
-      for (const Vec3& p : {middle, second.point(t[0]), second.point(t[1]), second.point(t[2])}) {
-        const auto foot = on_complex.under(p, on_body.normal(second.origin(f)), tolerance_);
-        if (!foot) continue;
-        Contact& contact = contacts[complex_.sides[foot->triangle].behind];
-        const bool is_first = contact.second != added_;
-        if (is_first || std::abs(foot->height) > std::max(contact.largest_gap, contact.largest_overlap)) contact.at = p;
-        contact.second = added_;
-        contact.largest_gap = std::max(contact.largest_gap, foot->height);
-        contact.largest_overlap = std::max(contact.largest_overlap, -foot->height);
-      }
-      if (const auto foot = on_complex.under(middle, on_body.normal(second.origin(f)), tolerance_))
-        ++contacts[complex_.sides[foot->triangle].behind].triangles;
-    }
-    for (auto& [other, contact] : contacts) {
-      if (contact.triangles == 0) continue;  // a corner that touches
-      contact.first = other;
-      contact.tolerance = tolerance_;
-      complex_.contacts.push_back(contact);
-    }
-  }
-
-  void take(const SplitSurface& first, const std::vector<bool>& of_first, const SplitSurface& second,
-            const std::vector<bool>& of_second, std::vector<std::uint32_t> image);
-
-  BodyComplex& complex_;
-  std::span<const Body> bodies_;
-  std::uint32_t added_;
-  const JoinOptions& options_;
-  const SurfaceMesh& body_;
-  std::vector<std::uint32_t> outer_;
-  double fuzz_ = 0, tolerance_ = 0;
-};
-
-void Join::take(const SplitSurface& first, const std::vector<bool>& of_first, const SplitSurface& second,
-                const std::vector<bool>& of_second, std::vector<std::uint32_t> image) {
-  std::vector<Sides> sides;
-  for (std::uint32_t f = 0; f < of_first.size(); ++f) {
-    Sides& side = sides.emplace_back(complex_.sides[first.origin(f)]);
-    if (!of_first[f]) continue;
-    side.front = added_;
-    for (Contact& contact : complex_.contacts)
-      if (contact.first == side.behind && contact.second == added_)
-        contact.area += area_vector(first.mesh(), first.triangle(f)).norm() / 2;
-  }
-  SurfaceMesh mesh = first.mesh();
-  for (std::uint32_t f = 0; f < of_second.size(); ++f) {
-    if (of_second[f]) continue;
-    Triangle t = second.triangle(f);
-    for (std::uint32_t& v : t) {
-      if (image[v] == no_image) {
-        image[v] = static_cast<std::uint32_t>(mesh.vertices.size());
-        mesh.vertices.push_back(second.point(v));
-      }
-      v = image[v];
-    }
-    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
-    mesh.triangles.push_back(t);
-    sides.push_back({.behind = added_, .front = no_body});
-  }
-  complex_.mesh = std::move(mesh);
-  complex_.sides = std::move(sides);
-}
+// Times the distance that is to be closed, and times the tolerance that did not do, nearest first.
+constexpr std::array<double, 4> over_distance{1.01, 1.1, 1.4, 2};
+constexpr std::array<double, 4> other_tolerances{0.5, 2, 0.2, 5};
+// Of the diagonal. The first is as much as repair draws touching shells apart.
+constexpr std::array<double, 3> draw_back{1e-6, 4e-6, 1.6e-5};
 
 // Each edge once in either direction.
 void require_closed(const BodyComplex& complex, std::uint32_t body, const std::string& name) {
@@ -266,39 +31,159 @@ void require_closed(const BodyComplex& complex, std::uint32_t body, const std::s
                        .where = name,
                        .value = {},
                        .limit = {},
-                       .advice = "another --contact",
+                       .advice = {},
                        .at = complex.mesh.vertices[edge.first]});
   }
 }
 
-void require_clear(const BodyComplex& complex, std::span<const Body> bodies) {
-  for (const auto& [face, other] : find_self_intersections(complex.mesh)) {
-    if (face == other) continue;  // a needle of the cuts
-    throw NotMeshable(
-        {.what = "the bodies cross beside their contact",
-         .where = bodies[complex.sides[face].behind].name + " and " + bodies[complex.sides[other].behind].name,
-         .value = {},
-         .limit = {},
-         .advice = "a larger --contact, or move them apart",
-         .at = centroid(complex.mesh, complex.mesh.triangles[face])});
+void require_volume(const BodyComplex& complex, std::uint32_t body, const Body& given) {
+  const double volume = enclosed_volume({complex.mesh.vertices, triangles_of_body(complex, body)});
+  const double change = volume / enclosed_volume(given.surface) - 1;
+  if (std::abs(change) <= most_volume_change) return;
+  throw NotMeshable({.what = "to close its contacts changes the volume of the body",
+                     .where = given.name,
+                     .value = error_text(100 * change, 3) + " %",
+                     .limit = error_text(100 * most_volume_change, 3) + " %",
+                     .advice = {},
+                     .at = {}});
+}
+
+// A body between the two fills the gap.
+void drop_filled_gaps(std::span<const Body> bodies, BodyComplex& complex) {
+  if (complex.gaps.empty()) return;
+  for (std::uint32_t b = 0; b < bodies.size(); ++b) {
+    const InsideTest inside(bodies[b].surface);
+    std::erase_if(complex.gaps,
+                  [&](const OpenGap& gap) { return gap.first != b && gap.second != b && inside(gap.at).inside; });
   }
+}
+
+[[noreturn]] void fail_crossing(std::span<const Body> bodies, const TouchingPlace& place, double tolerance) {
+  const bool is_same =
+      place.first != place.second && lie_alike(bodies[place.first].surface, bodies[place.second].surface, tolerance);
+  const std::string& first = bodies[place.first].name;
+  throw NotMeshable({.what = is_same ? "the two bodies are one and the same" : "the bodies cross",
+                     .where = place.first == place.second ? first : first + " and " + bodies[place.second].name,
+                     .value = {},
+                     .limit = {},
+                     .advice = is_same ? "leave one of them out" : "",
+                     .at = place.at});
+}
+
+void add_apart(BodyComplex& complex, const Body& body, std::uint32_t b) {
+  const auto first = static_cast<std::uint32_t>(complex.mesh.vertices.size());
+  complex.mesh.vertices.insert(complex.mesh.vertices.end(), body.surface.vertices.begin(), body.surface.vertices.end());
+  for (const auto& [v, u, w] : body.surface.triangles) {
+    complex.mesh.triangles.push_back({first + v, first + u, first + w});
+    complex.sides.push_back({.behind = b, .front = no_body});
+  }
+}
+
+// A contact that is but a strip or a speck, as of a rod or a ball on a plate, may have no clear border: then the bodies
+// touch along a line or at a point.
+void add_body(BodyComplex& complex, std::span<const Body> bodies, std::uint32_t b, const JoinOptions& options,
+              JoinHints& hints) {
+  BodyComplex before = complex;
+  try {
+    join_body(complex, bodies, b, options, hints);
+    require_closed(complex, b, bodies[b].name);
+    if (options.tolerance || !hints.is_narrow || find_touching_places(complex).empty()) return;
+  } catch (const NotMeshable&) {
+    if (options.tolerance || hints.closing || !hints.is_narrow) throw;
+  }
+  complex = std::move(before);
+  add_apart(complex, bodies[b], b);
+}
+
+BodyComplex joined_as_they_lie(std::span<const Body> bodies, const JoinOptions& options, JoinHints& hints) {
+  BodyComplex complex;
+  complex.mesh = bodies[0].surface;
+  complex.sides.assign(complex.mesh.triangles.size(), {.behind = 0, .front = no_body});
+  for (std::uint32_t b = 1; b < bodies.size(); ++b) add_body(complex, bodies, b, options, hints);
+  for (std::uint32_t b = 0; b < bodies.size(); ++b) {
+    require_closed(complex, b, bodies[b].name);
+    require_volume(complex, b, bodies[b]);
+  }
+  return complex;
+}
+
+// Draws bodies back where they touch or cross others beside their contacts: the second of two, then the first, then
+// both farther.
+BodyComplex joined(std::span<const Body> given, const JoinOptions& options, JoinHints& hints) {
+  std::vector<Body> moved;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Touch> touches;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> trials;
+  while (true) {
+    const std::span<const Body> bodies = moved.empty() ? given : std::span<const Body>(moved);
+    BodyComplex complex = joined_as_they_lie(bodies, options, hints);
+    const std::vector<TouchingPlace> places = find_touching_places(complex);
+    if (places.empty()) {
+      for (const auto& [pair, touch] : touches)
+        if (std::ranges::none_of(complex.contacts, [&](const Contact& contact) {
+              return contact.first == pair.first && contact.second == pair.second;
+            }))
+          complex.touches.push_back(touch);
+      drop_filled_gaps(bodies, complex);
+      return complex;
+    }
+    if (moved.empty()) moved.assign(given.begin(), given.end());
+    for (const TouchingPlace& place : places) {
+      const std::size_t trial = trials[{place.first, place.second}]++;
+      if (trial == 2 * draw_back.size() || !only_touch(place, complex)) fail_crossing(given, place, hints.tolerance);
+      const std::uint32_t body = trial % 2 == 0 ? place.second : place.first;
+      const double distance =
+          draw_back[trial / 2] * std::max(bounding_box(given[place.first].surface.vertices).diagonal(),
+                                          bounding_box(given[place.second].surface.vertices).diagonal());
+      draw_back_at(place, complex, body, distance, moved[body].surface);
+      const auto [at, is_new] =
+          touches.try_emplace({place.first, place.second}, Touch{place.first, place.second, place.length, 0, place.at});
+      at->second.moved += distance;
+    }
+  }
+}
+
+// The first of these tolerances with which the bodies are joined, as the user would give it.
+std::optional<std::string> that_works(std::span<const Body> bodies, std::span<const double> times, double length,
+                                      const JoinHints& failure) {
+  for (const double factor : times) {
+    const std::string text = error_text(factor * length);
+    const JoinOptions options{.tolerance = std::stod(text)};
+    JoinHints hints;
+    try {
+      const BodyComplex complex = joined(bodies, options, hints);
+      const auto closes = [&](const Contact& c) { return c.first == failure.first && c.second == failure.second; };
+      if (length != failure.closing || std::ranges::any_of(complex.contacts, closes)) return text;
+    } catch (const NotMeshable&) {
+      // Another one, then.
+    }
+  }
+  return {};
+}
+
+std::string advice(std::span<const Body> bodies, const JoinHints& hints) {
+  constexpr std::array<double, 1> once{1};
+  std::string text;
+  const auto closing = hints.closing ? that_works(bodies, over_distance, *hints.closing, hints)
+                                     : that_works(bodies, other_tolerances, hints.tolerance, hints);
+  if (closing) text = "--contact " + *closing + (hints.leaves_gap ? " to close it" : "");
+  const auto leaving = hints.leaves_gap ? that_works(bodies, once, hints.tolerance, hints) : std::nullopt;
+  if (leaving) text += (text.empty() ? "" : ", ") + ("--contact " + *leaving) + " to leave it";
+  if (!text.empty()) return text;
+  return "--one-body, which makes one of them, or subtract one from the other where they are drawn";
 }
 
 }  // namespace
 
 BodyComplex join_bodies(std::span<const Body> bodies, const JoinOptions& options) {
-  BodyComplex complex;
-  for (std::uint32_t b = 0; b < bodies.size(); ++b) {
-    if (b == 0) {
-      complex.mesh = bodies[b].surface;
-      complex.sides.assign(complex.mesh.triangles.size(), {.behind = b, .front = no_body});
-      continue;
-    }
-    Join(complex, bodies, b, options).run();
+  JoinHints hints;
+  try {
+    return joined(bodies, options, hints);
+  } catch (NotMeshable& error) {
+    ErrorParts parts = error.parts();
+    if (parts.advice.empty()) parts.advice = advice(bodies, hints);
+    error.amend(std::move(parts));
+    throw;
   }
-  for (std::uint32_t b = 0; b < bodies.size(); ++b) require_closed(complex, b, bodies[b].name);
-  require_clear(complex, bodies);
-  return complex;
 }
 
 std::vector<Triangle> triangles_of_body(const BodyComplex& complex, std::uint32_t body) {

@@ -16,7 +16,7 @@ namespace {
 
 struct CheckFlags {
   CommonFlags common;
-  std::optional<std::filesystem::path> reference;
+  std::vector<std::filesystem::path> references;  // several are bodies
   std::optional<std::filesystem::path> leaks;
 };
 
@@ -44,7 +44,7 @@ FeatureLines lines_of(const std::vector<Opening>& openings) {
 
 std::vector<ReadFile> read_files(const CheckFlags& flags) {
   std::vector<ReadFile> files{{"mesh", flags.common.input}};
-  if (flags.reference) files.push_back({"reference", *flags.reference});
+  for (const std::filesystem::path& reference : flags.references) files.push_back({"reference", reference});
   if (flags.common.config) files.push_back({"configuration", *flags.common.config});
   return files;
 }
@@ -52,7 +52,7 @@ std::vector<ReadFile> read_files(const CheckFlags& flags) {
 int check(CheckFlags flags) {
   const std::vector<Gate> gates = parse_gates(flags.common);
   std::vector<std::filesystem::path> inputs = inputs_of(flags.common);
-  if (flags.reference) inputs.push_back(*flags.reference);
+  inputs.insert(inputs.end(), flags.references.begin(), flags.references.end());
   std::vector<OutputPath> files = report_outputs(flags.common);
   if (flags.leaks) files.push_back({*flags.leaks});
   require_writable(files, inputs, flags.common.force);
@@ -61,12 +61,12 @@ int check(CheckFlags flags) {
   const std::string unit = settled_unit(mesh.unit, flags.common.unit, flags.common.input.string());
   if (!unit.empty()) flags.common.unit = unit;
   display.line(describe_input(mesh.surface, flags.common));
-  LoadedReference reference;
-  if (flags.reference) reference = load_reference(*flags.reference);
+  const LoadedReference reference = flags.references.empty() ? LoadedReference() : load_references(flags.references);
   Subject subject = subject_of(mesh);
   subject.reference = reference.surface ? &*reference.surface : nullptr;
   subject.cloud = reference.cloud ? &*reference.cloud : nullptr;
   subject.solid_volume = reference.solid_volume;
+  subject.reference_is_of_bodies = reference.is_of_bodies;
   subject.inputs = read_files(flags);
   subject.first_element = first_element_of(flags.common.input);
   StagedOutputs outputs;
@@ -86,9 +86,11 @@ SubCommand add_check(CLI::App& root) {
   const auto flags = std::make_shared<CheckFlags>();
   CLI::App* app = root.add_subcommand("check", "Figures and gates of a surface or a volume mesh");
   add_common_flags(*app, flags->common);
-  app->add_option("--reference", flags->reference,
-                  "What the surface is compared with, usually the scan; of a cloud, its points' distances")
-      ->type_name("FILE");
+  app->add_option("--reference", flags->references,
+                  "What the surface is compared with, usually the scan; of a cloud, its points' distances; of several "
+                  "bodies, the option for each")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
   app->add_option("--leaks", flags->leaks,
                   "Write the borders of the openings that the surface leaks through: OBJ lines")
       ->type_name("FILE");

@@ -83,6 +83,7 @@ Json to_json(const std::vector<MadeBody>& bodies) {
                     {"volume", body.volume},
                     {"volume_of_scan", body.volume_of_scan},
                     {"volume_difference_pct", 100 * (body.volume / body.volume_of_scan - 1)},
+                    {"volume_joined", body.volume_joined},
                     {"tetrahedra", body.tetrahedra}});
   return list;
 }
@@ -97,6 +98,27 @@ Json to_json(const std::vector<MadeContact>& contacts) {
                     {"largest_overlap", contact.largest_overlap},
                     {"tolerance", contact.tolerance},
                     {"place", {contact.at.x(), contact.at.y(), contact.at.z()}}});
+  return list;
+}
+
+Json to_json(const std::vector<MadeGap>& gaps) {
+  Json list = Json::array();
+  for (const MadeGap& gap : gaps)
+    list.push_back({{"bodies", {gap.first, gap.second}},
+                    {"size", gap.size},
+                    {"tolerance", gap.tolerance},
+                    {"place", {gap.at.x(), gap.at.y(), gap.at.z()}}});
+  return list;
+}
+
+Json to_json(const std::vector<MadeTouch>& touches) {
+  Json list = Json::array();
+  for (const MadeTouch& touch : touches)
+    list.push_back({{"bodies", {touch.first, touch.second}},
+                    {"kind", touch.length > 0 ? "line" : "point"},
+                    {"length", touch.length},
+                    {"drawn_apart", touch.moved},
+                    {"place", {touch.at.x(), touch.at.y(), touch.at.z()}}});
   return list;
 }
 
@@ -169,9 +191,11 @@ Json measure(const Subject& subject, const CommonFlags& flags) {
   if (subject.surface != nullptr && subject.reference != nullptr) {
     std::optional<double> volume = subject.solid_volume;
     if (!volume && encloses_volume(*subject.surface)) volume = volume_of_solid(*subject.reference);
-    const DeviationOptions how{.seed = flags.seed, .reference_volume = volume};
-    report.deviation = is_curved ? measure_deviation(*subject.volume_mesh, *subject.reference, how)
-                                 : measure_deviation(*subject.surface, *subject.reference, how);
+    const DeviationOptions how{
+        .seed = flags.seed, .reference_volume = volume, .reference_is_of_bodies = subject.reference_is_of_bodies};
+    report.deviation = is_curved || (subject.volume_mesh != nullptr && how.reference_is_of_bodies)
+                           ? measure_deviation(*subject.volume_mesh, *subject.reference, how)
+                           : measure_deviation(*subject.surface, *subject.reference, how);
   }
   if (subject.surface != nullptr && subject.cloud != nullptr) {
     const double tolerance = flat_enough_of_diagonal * bounding_box(subject.cloud->points).diagonal();
@@ -194,6 +218,8 @@ Json measure(const Subject& subject, const CommonFlags& flags) {
   if (subject.bodies != nullptr && !subject.bodies->empty()) {
     json["bodies"] = to_json(*subject.bodies);
     json["contacts"] = to_json(*subject.contacts);
+    json["gaps"] = to_json(*subject.gaps);
+    json["touches"] = to_json(*subject.touches);
   }
   if (!subject.compared.is_null()) json["compared"] = subject.compared;
   if (subject.stages != nullptr) json["stages"] = to_json(*subject.stages);

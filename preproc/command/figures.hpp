@@ -19,6 +19,7 @@ struct Subject {
   const SurfaceMesh* surface = nullptr;
   const SurfaceMesh* reference = nullptr;
   std::optional<double> solid_volume;
+  bool reference_is_of_bodies = false;  // see DeviationOptions
   const TetMesh* volume_mesh = nullptr;
   const std::vector<StageRecord>* stages = nullptr;
   const RepairResult* repaired = nullptr;
@@ -29,6 +30,8 @@ struct Subject {
   const SurfaceFaces* faces = nullptr;  // of the scan
   const std::vector<MadeBody>* bodies = nullptr;
   const std::vector<MadeContact>* contacts = nullptr;
+  const std::vector<MadeGap>* gaps = nullptr;
+  const std::vector<MadeTouch>* touches = nullptr;
   const std::vector<NamedSet>* face_sets = nullptr;  // of the surface; a volume mesh has its own
   std::vector<ReadFile> inputs = {};
   std::optional<std::filesystem::path> output = {};

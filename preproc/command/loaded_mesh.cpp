@@ -1,12 +1,25 @@
 #include "preproc/command/loaded_mesh.hpp"
 
 #include "export/formats.hpp"
+#include "preproc/command/body_inputs.hpp"
+#include "preproc/mesh/error.hpp"
 #include "preproc/mesh/read_cloud.hpp"
+#include "preproc/surface/repair/solid_volume.hpp"
 #include "quality/curved_surface.hpp"
 
 #include <utility>
 
 namespace scan2fea::command {
+namespace {
+
+// Each closed by itself, so that where they touch no surface of one is that of the other.
+double volume_of_bodies(const std::vector<Body>& bodies) {
+  double sum = 0;
+  for (const Body& body : bodies) sum += volume_of_solid(body.surface).value_or(enclosed_volume(body.surface));
+  return sum;
+}
+
+}  // namespace
 
 LoadedMesh load_mesh(const std::filesystem::path& file) {
   MeshFile read = read_mesh(file);
@@ -36,24 +49,61 @@ Subject subject_of(const LoadedMesh& mesh) {
 
 LoadedReference load_reference(const std::filesystem::path& file) {
   if (find_format(file) != nullptr && find_format(file)->volume) return reference_of(load_mesh(file));
-  Scan scan = read_scan(file);
+  NamedScan scan = read_named_scan(file);
   LoadedReference reference;
-  if (auto* points = std::get_if<PointCloud>(&scan))
+  if (auto* points = std::get_if<PointCloud>(&scan)) {
     reference.cloud = std::move(*points);
-  else
-    reference.surface = std::move(std::get<SurfaceMesh>(scan));
-  return reference;
+    return reference;
+  }
+  auto& surface = std::get<NamedSurface>(scan);
+  return reference_of({.surface = std::move(surface.mesh),
+                       .volume_mesh = {},
+                       .face_sets = std::move(surface.face_sets),
+                       .element_numbers = {},
+                       .unit = {}});
+}
+
+LoadedReference load_references(const std::vector<std::filesystem::path>& files) {
+  if (files.size() == 1) return load_reference(files.front());
+  LoadedReference all{.surface = SurfaceMesh{}, .cloud = {}, .solid_volume = 0, .is_of_bodies = true};
+  for (const std::filesystem::path& file : files) {
+    const LoadedReference one = load_reference(file);
+    if (!one.surface)
+      throw WrongUsage({.what = "a point cloud among several references",
+                        .where = file.string(),
+                        .value = {},
+                        .limit = {},
+                        .advice = "surfaces, one for each body"});
+    const auto first = static_cast<std::uint32_t>(all.surface->vertices.size());
+    all.surface->vertices.insert(all.surface->vertices.end(), one.surface->vertices.begin(),
+                                 one.surface->vertices.end());
+    for (const auto& [a, b, c] : one.surface->triangles)
+      all.surface->triangles.push_back({first + a, first + b, first + c});
+    *all.solid_volume +=
+        one.solid_volume ? *one.solid_volume : volume_of_solid(*one.surface).value_or(enclosed_volume(*one.surface));
+  }
+  return all;
 }
 
 LoadedReference reference_of(LoadedMesh mesh) {
   LoadedReference reference;
-  if (!mesh.volume_mesh || mesh.volume_mesh->order() == 1) {
+  if (!mesh.volume_mesh) {
+    if (const std::vector<Body> bodies = bodies_of_groups(mesh.surface, mesh.face_sets); !bodies.empty()) {
+      reference.is_of_bodies = true;
+      reference.solid_volume = volume_of_bodies(bodies);
+    }
     reference.surface = std::move(mesh.surface);
     return reference;
   }
-  reference.solid_volume = total_volume(*mesh.volume_mesh);
+  const TetMesh& volume = *mesh.volume_mesh;
+  reference.is_of_bodies = volume.faces_between > 0;
+  if (volume.order() == 2 || reference.is_of_bodies) reference.solid_volume = total_volume(volume);
+  if (volume.order() == 1) {
+    reference.surface = surfaces_of_bodies(volume);
+    return reference;
+  }
   const double tolerance = flat_enough_of_diagonal * bounding_box(mesh.surface.vertices).diagonal();
-  reference.surface = flat_pieces(*mesh.volume_mesh, tolerance).mesh;
+  reference.surface = flat_pieces(volume, tolerance, FacesBetween::of_either).mesh;
   return reference;
 }
 

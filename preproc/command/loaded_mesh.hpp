@@ -31,10 +31,14 @@ Subject subject_of(const LoadedMesh& mesh);
 struct LoadedReference {
   std::optional<SurfaceMesh> surface;
   std::optional<PointCloud> cloud;
-  std::optional<double> solid_volume;  // of a mesh of second order, whose surface is curved and here in flat pieces
+  std::optional<double> solid_volume;  // where the surface's triangles do not tell it
+  bool is_of_bodies = false;           // see DeviationOptions
 };
 
 LoadedReference load_reference(const std::filesystem::path& file);
+// One of them, or the surfaces of several bodies. Throws WrongUsage for a cloud among several.
+LoadedReference load_references(const std::vector<std::filesystem::path>& files);
+// Of a mesh of second order the surface is curved, in flat pieces; of one of several bodies it is all of their surfaces.
 LoadedReference reference_of(LoadedMesh mesh);
 
 }  // namespace scan2fea::command

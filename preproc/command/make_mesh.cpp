@@ -112,11 +112,40 @@ Scan read_input(MakeMeshJob& job) {
   return std::move(surface.mesh);
 }
 
+[[noreturn]] void refuse_cloud(const std::filesystem::path& file) {
+  throw WrongUsage({.what = "a point cloud among several bodies",
+                    .where = file.string(),
+                    .value = {},
+                    .limit = {},
+                    .advice = "scan2fea reconstruct, first"});
+}
+
+// The surfaces of more files, added to the first one's, with their sets.
+void add_to_one_body(MakeMeshJob& job, Scan& first) {
+  for (const std::filesystem::path& file : job.more_bodies) {
+    const NamedScan read = read_file(file, job);
+    const auto* more = std::get_if<NamedSurface>(&read);
+    auto* mesh = std::get_if<SurfaceMesh>(&first);
+    if (more == nullptr || mesh == nullptr) refuse_cloud(more == nullptr ? file : job.common.input);
+    const auto vertices = static_cast<std::uint32_t>(mesh->vertices.size());
+    const auto triangles = static_cast<std::uint32_t>(mesh->triangles.size());
+    mesh->vertices.insert(mesh->vertices.end(), more->mesh.vertices.begin(), more->mesh.vertices.end());
+    for (const auto& [a, b, c] : more->mesh.triangles)
+      mesh->triangles.push_back({vertices + a, vertices + b, vertices + c});
+    for (const NamedSet& set : more->face_sets) {
+      std::vector<NamedSet>& sets = job.pipeline.given_sets;
+      std::vector<std::uint32_t>& members = sets[find_or_add_set(sets, set.name)].members;
+      for (const std::uint32_t f : set.members) members.push_back(triangles + f);
+    }
+  }
+}
+
 // Of the files, where there are several, or else of the groups of the only one; none where that is one body.
 std::vector<Body> read_bodies(MakeMeshJob& job, const Scan& first) {
   const auto* mesh = std::get_if<SurfaceMesh>(&first);
+  if (job.one_body) return {};
   if (job.more_bodies.empty())
-    return mesh == nullptr || job.one_body ? std::vector<Body>() : bodies_of_groups(*mesh, job.pipeline.given_sets);
+    return mesh == nullptr ? std::vector<Body>() : bodies_of_groups(*mesh, job.pipeline.given_sets);
   std::vector<std::filesystem::path> files{job.common.input};
   files.insert(files.end(), job.more_bodies.begin(), job.more_bodies.end());
   const std::vector<std::string> names = body_names(files);
@@ -124,12 +153,7 @@ std::vector<Body> read_bodies(MakeMeshJob& job, const Scan& first) {
   for (std::size_t b = 0; b < files.size(); ++b) {
     const NamedScan read = b == 0 ? NamedScan() : read_file(files[b], job);
     const auto* surface = std::get_if<NamedSurface>(&read);
-    if (b == 0 ? mesh == nullptr : surface == nullptr)
-      throw WrongUsage({.what = "a point cloud among several bodies",
-                        .where = files[b].string(),
-                        .value = {},
-                        .limit = {},
-                        .advice = "scan2fea reconstruct, first"});
+    if (b == 0 ? mesh == nullptr : surface == nullptr) refuse_cloud(files[b]);
     bodies.push_back({names[b], b == 0 ? *mesh : surface->mesh});
   }
   return bodies;
@@ -267,6 +291,7 @@ int make_mesh(MakeMeshJob job) {
   const std::vector<Gate> gates = parse_gates(job.common);
 
   Scan scan = read_input(job);
+  if (job.one_body) add_to_one_body(job, scan);
   std::vector<Body> bodies = read_bodies(job, scan);
   parse_sets(job);
   if (!job.enrich_domain.empty())
@@ -292,6 +317,7 @@ int make_mesh(MakeMeshJob job) {
     const Subject subject{.surface = result.volume_mesh ? &boundary : &result.surface,
                           .reference = &result.reference(),
                           .solid_volume = result.solid_volume,
+                          .reference_is_of_bodies = !result.bodies.empty(),
                           .volume_mesh = result.volume_mesh ? &*result.volume_mesh : nullptr,
                           .stages = &result.stages,
                           .repaired = &result.repaired,
@@ -302,6 +328,8 @@ int make_mesh(MakeMeshJob job) {
                           .faces = &result.faces,
                           .bodies = &result.bodies,
                           .contacts = &result.contacts,
+                          .gaps = &result.gaps,
+                          .touches = &result.touches,
                           .face_sets = &result.face_sets,
                           .inputs = read_files(job),
                           .output = job.output,

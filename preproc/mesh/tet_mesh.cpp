@@ -12,6 +12,26 @@ struct Face {
   BoundaryFace face;
 };
 
+// The triangles, each from its first node on, and the nodes that they use.
+SurfaceMesh numbered_in_order(const TetMesh& mesh, std::vector<Triangle> triangles) {
+  constexpr auto unused = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> renumbered(mesh.nodes.size(), unused);
+  SurfaceMesh surface{.vertices = {}, .triangles = std::move(triangles)};
+  for (Triangle& t : surface.triangles) {
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+    for (const std::uint32_t v : t) renumbered[v] = 0;
+  }
+  std::sort(surface.triangles.begin(), surface.triangles.end());
+  for (std::size_t v = 0; v < mesh.nodes.size(); ++v) {
+    if (renumbered[v] == unused) continue;
+    renumbered[v] = static_cast<std::uint32_t>(surface.vertices.size());
+    surface.vertices.push_back(mesh.nodes[v]);
+  }
+  for (Triangle& t : surface.triangles)
+    for (std::uint32_t& v : t) v = renumbered[v];
+  return surface;
+}
+
 }  // namespace
 
 Triangle boundary_mid_edge_nodes(const TetMesh& mesh, BoundaryFace f) {
@@ -101,25 +121,21 @@ std::vector<BoundaryFace> find_boundary(const std::vector<Tetrahedron>& tetrahed
 }
 
 SurfaceMesh boundary_surface(const TetMesh& mesh) {
-  constexpr auto unused = std::numeric_limits<std::uint32_t>::max();
-  std::vector<std::uint32_t> renumbered(mesh.nodes.size(), unused);
-  SurfaceMesh surface;
-  surface.triangles.reserve(mesh.outer_faces());
-  for (std::size_t i = 0; i < mesh.outer_faces(); ++i) {
-    const BoundaryFace f = mesh.boundary[i];
-    Triangle& t = surface.triangles.emplace_back(boundary_triangle(mesh, f));
-    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-    for (const std::uint32_t v : t) renumbered[v] = 0;
+  std::vector<Triangle> triangles;
+  triangles.reserve(mesh.outer_faces());
+  for (std::size_t i = 0; i < mesh.outer_faces(); ++i) triangles.push_back(boundary_triangle(mesh, mesh.boundary[i]));
+  return numbered_in_order(mesh, std::move(triangles));
+}
+
+SurfaceMesh surfaces_of_bodies(const TetMesh& mesh) {
+  std::vector<Triangle> triangles;
+  triangles.reserve(mesh.boundary.size() + mesh.faces_between);
+  for (std::size_t i = 0; i < mesh.boundary.size(); ++i) {
+    const auto [a, b, c] = boundary_triangle(mesh, mesh.boundary[i]);
+    triangles.push_back({a, b, c});
+    if (i >= mesh.outer_faces()) triangles.push_back({a, c, b});
   }
-  std::sort(surface.triangles.begin(), surface.triangles.end());
-  for (std::size_t v = 0; v < mesh.nodes.size(); ++v) {
-    if (renumbered[v] == unused) continue;
-    renumbered[v] = static_cast<std::uint32_t>(surface.vertices.size());
-    surface.vertices.push_back(mesh.nodes[v]);
-  }
-  for (Triangle& t : surface.triangles)
-    for (std::uint32_t& v : t) v = renumbered[v];
-  return surface;
+  return numbered_in_order(mesh, std::move(triangles));
 }
 
 CurvedTetrahedron curved_tetrahedron(const TetMesh& mesh, std::size_t tetrahedron) {

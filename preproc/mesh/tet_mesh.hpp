@@ -79,6 +79,9 @@ std::vector<BoundaryFace> find_boundary(const std::vector<Tetrahedron>& tetrahed
 // Corner nodes and triangles of the boundary; vertices are renumbered in the order of the nodes.
 SurfaceMesh boundary_surface(const TetMesh& mesh);
 
+// The same with the faces between two bodies, once for either: the closed surfaces of all bodies.
+SurfaceMesh surfaces_of_bodies(const TetMesh& mesh);
+
 // An element of any order: corners, then nodes in the middle of the edges in the order of `tetrahedron_edges`.
 using CurvedTetrahedron = std::array<Vec3, 10>;
 

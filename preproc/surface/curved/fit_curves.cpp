@@ -58,22 +58,6 @@ bool is_needle(const SurfaceMesh& mesh, const Triangle& t, double least_deg) {
   return !shape || shape->min_angle_deg < least_deg;
 }
 
-// Faces that meet others, and those whose corners went where they make a needle.
-std::vector<std::uint32_t> spoilt_faces(const CurvedSurface& surface, const SurfaceMesh& straight) {
-  std::vector<std::uint32_t> faces;
-  for (const FacePair& pair : find_self_intersections(in_four(surface)))
-    faces.insert(faces.end(), {pair.face / 4, pair.other / 4});
-  for (const FacePair& pair : find_self_intersections(surface.corners))
-    faces.insert(faces.end(), {pair.face, pair.other});
-  for (std::uint32_t f = 0; f < straight.triangles.size(); ++f)
-    if (is_needle(surface.corners, straight.triangles[f], least_angle_deg) &&
-        !is_needle(straight, straight.triangles[f], least_angle_deg))
-      faces.push_back(f);
-  std::sort(faces.begin(), faces.end());
-  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-  return faces;
-}
-
 // No edge bends farther than a quarter of its length, as where corners came near to one another.
 void limit_bends(CurvedSurface& surface) {
   for (std::size_t e = 0; e < surface.edges.size(); ++e) {
@@ -82,6 +66,18 @@ void limit_bends(CurvedSurface& surface) {
     const double most = largest_bend * (surface.corners.vertices[a] - surface.corners.vertices[b]).norm();
     if (bend.norm() > most) surface.mid[e] = middle + most / bend.norm() * bend;
   }
+}
+
+void fit_nodes(CurvedSurface& surface, const std::vector<Vec3>& directions, const FeatureNet& net,
+               const ReferenceSurface& scan, const Progress& progress) {
+  CurvedSurface cut = cut_open(surface.corners, net);
+  CurveFitter fitter(surface, cut, net.patch_of_face, scan);
+  for (int round = 0; round < rounds; ++round) {
+    progress("curved sides", round / (rounds + 1.0));
+    fitter.step(directions);
+  }
+  progress("curved sides", rounds / (rounds + 1.0));
+  limit_bends(surface);
 }
 
 // With the volume, where spoilt faces are straight as they were.
@@ -109,24 +105,44 @@ void settle(FittedCurves& fitted, const CurvedSurface& straight) {
 
 }  // namespace
 
+std::vector<std::uint32_t> spoilt_faces(const CurvedSurface& surface, const SurfaceMesh& straight) {
+  std::vector<std::uint32_t> faces;
+  for (const FacePair& pair : find_self_intersections(in_four(surface)))
+    faces.insert(faces.end(), {pair.face / 4, pair.other / 4});
+  for (const FacePair& pair : find_self_intersections(surface.corners))
+    faces.insert(faces.end(), {pair.face, pair.other});
+  for (std::uint32_t f = 0; f < straight.triangles.size(); ++f)
+    if (is_needle(surface.corners, straight.triangles[f], least_angle_deg) &&
+        !is_needle(straight, straight.triangles[f], least_angle_deg))
+      faces.push_back(f);
+  std::sort(faces.begin(), faces.end());
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  return faces;
+}
+
 FittedCurves fit_curves(const SurfaceMesh& surface, const FeatureNet& net, const ReferenceSurface& scan,
                         bool keep_corners, const Progress& progress) {
   const CurvedSurface straight(surface);
   FittedCurves fitted{.surface = straight, .directions = {}, .volumes = volumes_of_components(surface)};
   fitted.directions = directions_of(fitted.surface, keep_corners);
   place_lines(fitted.surface, net, keep_corners, fitted.directions);
-  {
-    CurvedSurface cut = cut_open(surface, net);
-    CurveFitter fitter(fitted.surface, cut, net.patch_of_face, scan);
-    for (int round = 0; round < rounds; ++round) {
-      progress("curved sides", round / (rounds + 1.0));
-      fitter.step(fitted.directions);
-    }
-  }
-  progress("curved sides", rounds / (rounds + 1.0));
-  limit_bends(fitted.surface);
+  fit_nodes(fitted.surface, fitted.directions, net, scan, progress);
   settle(fitted, straight);
   return fitted;
+}
+
+std::vector<Vec3> fit_piece(CurvedSurface& surface, const std::vector<bool>& is_held, const FeatureNet& net,
+                            const ReferenceSurface& scan, const Progress& progress) {
+  const CurvedSurface given = surface;
+  std::vector<Vec3> directions = directions_of(surface, false);
+  place_lines(surface, net, false, directions);
+  for (std::size_t i = 0; i < is_held.size(); ++i) {
+    if (!is_held[i]) continue;
+    surface.node(i) = given.node(i);
+    directions[i].setZero();
+  }
+  fit_nodes(surface, directions, net, scan, progress);
+  return directions;
 }
 
 }  // namespace scan2fea

@@ -31,4 +31,13 @@ struct FittedCurves {
 FittedCurves fit_curves(const SurfaceMesh& surface, const FeatureNet& net, const ReferenceSurface& scan,
                         bool keep_corners = false, const Progress& progress = {});
 
+// The same of a piece of surface between borders, in place: nodes that are held stay where they are given, the others
+// of its lines go to the scan's, and the rest is fitted. Returns the directions. Not guaranteed: that nothing meets.
+std::vector<Vec3> fit_piece(CurvedSurface& surface, const std::vector<bool>& is_held, const FeatureNet& net,
+                            const ReferenceSurface& scan, const Progress& progress = {});
+
+// Faces that meet others, each taken as four plane ones, and those whose corners went where they make a needle that is
+// none in `straight`; sorted.
+std::vector<std::uint32_t> spoilt_faces(const CurvedSurface& surface, const SurfaceMesh& straight);
+
 }  // namespace scan2fea

@@ -5,6 +5,7 @@
 #include "preproc/mesh/surface_mesh.hpp"
 #include "preproc/surface/simplification/simplify_options.hpp"
 
+#include <memory>
 #include <vector>
 
 namespace scan2fea {
@@ -13,6 +14,7 @@ struct SimplifiedSheet {
   SurfaceMesh mesh;
   // Per vertex, whether it is one of the border; and whether of that or of a crease.
   std::vector<bool> on_border, on_line;
+  std::shared_ptr<const SurfaceOnScan> on_scan;  // refers to the sheet that it was made of
 };
 
 // `held`, per vertex: those of the sheet's border that are the border of the result, in their places, to the bit; each
