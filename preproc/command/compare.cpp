@@ -23,6 +23,7 @@ Json column(const LoadedMesh& mesh, const std::filesystem::path& file, const Com
   common.input = file;
   Subject subject = subject_of(mesh);
   subject.reference = reference.surface ? &*reference.surface : nullptr;
+  subject.reference_is_of_bodies = reference.is_of_bodies;
   subject.cloud = reference.cloud ? &*reference.cloud : nullptr;
   subject.solid_volume = reference.solid_volume;
   return measure(subject, common);
