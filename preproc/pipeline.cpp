@@ -480,6 +480,7 @@ PipelineResult run_pipeline(const PointCloud& cloud, const PipelineOptions& opti
         if (!reconstructed.is_made_up[f]) seen->triangles.push_back(scan.triangles[f]);
     }
     result.outliers = std::move(reconstructed.outliers);
+    result.bridges = std::move(reconstructed.bridges);
   });
   run_stages(std::move(scan), seen ? &*seen : nullptr, options, progress, log, result);
   return result;

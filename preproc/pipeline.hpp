@@ -104,6 +104,7 @@ struct PipelineResult {
   // with is `reference()`.
   std::optional<SurfaceMesh> given;
   std::vector<Vec3> outliers;          // of a cloud, left out
+  std::vector<Bridge> bridges;         // of its first surface
   std::optional<double> solid_volume;  // what `volume_of_solid(reference())` gives, where it is known already
   RepairResult repaired;
   SurfaceMesh scan;                   // after repair

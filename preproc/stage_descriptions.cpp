@@ -52,6 +52,8 @@ void describe_features(const SimplifyResult& result, const InScan& in_scan, Stag
 }  // namespace
 
 void describe(const ReconstructResult& result, StageRecord& record) {
+  const auto holes_bridged =
+      std::ranges::count_if(result.bridges, [](const Bridge& bridge) { return bridge.hole_radius.has_value(); });
   record.changes = {{"points_kept", static_cast<double>(result.kept)},
                     {"points_repeated", static_cast<double>(result.repeated)},
                     {"points_thinned", static_cast<double>(result.thinned)},
@@ -62,6 +64,7 @@ void describe(const ReconstructResult& result, StageRecord& record) {
                     {"gaps_closed", static_cast<double>(result.gaps)},
                     {"made_up_area", result.made_up_area},
                     {"bridges", static_cast<double>(result.bridges.size())},
+                    {"holes_bridged", static_cast<double>(holes_bridged)},
                     {"noise", result.noise},
                     {"spacing", result.spacing},
                     {"largest_distance_of_points", result.distances.largest},
@@ -77,9 +80,12 @@ void describe(const ReconstructResult& result, StageRecord& record) {
     record.remarks.push_back(std::to_string(result.outliers.size()) + " outliers were left out, the first at " +
                              error_text(result.outliers.front()));
   for (const Bridge& bridge : result.bridges)
-    record.remarks.push_back("at " + error_text(bridge.place) + " the surface spans " + rounded(bridge.length) +
-                             " between points " + rounded(bridge.spacing) +
-                             " apart from their own: a gap, or a hole that was bridged");
+    record.remarks.push_back(
+        bridge.hole_radius
+            ? "at " + error_text(bridge.place) + " the surface closes or narrows a hole of radius " +
+                  rounded(*bridge.hole_radius) + ", in which there are no points"
+            : "at " + error_text(bridge.place) + " the surface spans " + rounded(bridge.length) + " between points " +
+                  rounded(bridge.spacing) + " apart from their own: a gap, or a hole that was bridged");
 }
 
 // What is lost and made up first, since a person must know of it.

@@ -1,6 +1,7 @@
 #include "preproc/surface/reconstruction/cell_sides.hpp"
 
 #include "preproc/surface/kernel/point_neighbours.hpp"
+#include "preproc/surface/reconstruction/hole_voids.hpp"
 #include "preproc/surface/reconstruction/reconstruct.hpp"
 #include "preproc/surface/repair/repair.hpp"
 #include "quality/validity.hpp"
@@ -43,7 +44,8 @@ void expect_right_sides(double noise_of_diagonal) {
     for (const std::uint32_t v : corners) centre += part.points[v] / 4;
     ++all;
     known += sides[c] != CellSide::unknown;
-    wrong += sides[c] == (is_inside(centre) ? CellSide::outside : CellSide::inside);
+    const bool said_inside = sides[c] == CellSide::inside;
+    wrong += sides[c] != CellSide::unknown && said_inside != is_inside(centre);
   }
   EXPECT_GT(known, 0.5 * all);
   EXPECT_LT(wrong, 0.01 * known);
@@ -63,6 +65,24 @@ TEST(CellSides, AHoleOfFewPointsStaysOpen) {
   repair(surface);
   EXPECT_EQ(check_validity(surface).genus, 2);
   EXPECT_NEAR(enclosed_volume(surface) / 63'129, 1, 0.01);
+}
+
+// The mouth of a hole as it is closed by triangles between the points about it.
+TEST(HoleVoids, ALidIsNamedWithPlaceAndRadius) {
+  const SampledPart part = angle_bracket(2.5, 0, 1);
+  const Primitives found =
+      find_primitives(part.points, nearest_in_space(part.points, part.outwards, 20), part.outwards);
+  const std::vector<HoleVoid> voids = find_hole_voids(part.points, found);
+  ASSERT_EQ(voids.size(), 2);
+  SurfaceMesh surface = reconstruct({.points = part.points, .normals = {}, .scanners = {}}).surface;
+  EXPECT_TRUE(find_bridged_voids(surface, voids).empty());
+  const auto first = static_cast<std::uint32_t>(surface.vertices.size());
+  for (const Vec3& p : {Vec3(54, 13, 10), Vec3(63, 8, 10), Vec3(63, 18, 10)}) surface.vertices.push_back(p);
+  surface.triangles.push_back({first, first + 1, first + 2});
+  const std::vector<BridgedVoid> bridged = find_bridged_voids(surface, voids);
+  ASSERT_EQ(bridged.size(), 1);
+  EXPECT_LT((bridged[0].place - Vec3(60, 13, 10)).norm(), 2.5);
+  EXPECT_NEAR(voids[bridged[0].of].radius_at(0), 5, 0.05);
 }
 
 }  // namespace

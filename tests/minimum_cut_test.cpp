@@ -38,7 +38,7 @@ class MinimumCut : public testing::Test {
     for (const auto& triangles : surfaces) wound.push_back(wind(ball_.vertices, cells, triangles));
     std::vector<const WoundSurface*> all;
     for (const WoundSurface& surface : wound) all.push_back(&surface);
-    return cut_surface(ball_.vertices, spacing, cells, all);
+    return cut_surface(ball_.vertices, spacing, cells, all).triangles;
   }
   void expect_ball(const std::vector<Triangle>& triangles) const {
     const SurfaceMesh mesh{ball_.vertices, triangles};

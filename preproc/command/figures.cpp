@@ -37,6 +37,18 @@ Json list_changes(const RepairResult& repaired, bool (*is_listed)(RepairKind)) {
   return list;
 }
 
+void add_bridges(const std::vector<Bridge>& bridges, Json& list) {
+  for (const Bridge& bridge : bridges) {
+    const Vec3& p = bridge.place;
+    Json entry{{"what", bridge.hole_radius ? "bridged_hole" : "bridge"},
+               {"place", {p.x(), p.y(), p.z()}},
+               {"size", bridge.length},
+               {"triangles", bridge.triangles}};
+    if (bridge.hole_radius) entry["radius"] = *bridge.hole_radius;
+    list.push_back(std::move(entry));
+  }
+}
+
 // Places of others are places in this list.
 Json to_json(const std::vector<Primitive>& primitives) {
   Json list = Json::array();
@@ -209,6 +221,7 @@ Json measure(const Subject& subject, const CommonFlags& flags) {
   if (subject.repaired != nullptr) {
     json["lost"] = list_changes(*subject.repaired, is_lost);
     json["made_up"] = list_changes(*subject.repaired, is_made_up);
+    if (subject.bridges != nullptr) add_bridges(*subject.bridges, json["made_up"]);
   }
   if (subject.primitives != nullptr && !subject.primitives->empty()) json["primitives"] = to_json(*subject.primitives);
   if (subject.faces != nullptr && !subject.faces->list.empty()) json["faces"] = face_list(*subject.faces);

@@ -23,8 +23,9 @@ struct Subject {
   const TetMesh* volume_mesh = nullptr;
   const std::vector<StageRecord>* stages = nullptr;
   const RepairResult* repaired = nullptr;
-  const PointCloud* cloud = nullptr;            // what the surface is a surface of
-  const std::vector<Vec3>* outliers = nullptr;  // of it
+  const PointCloud* cloud = nullptr;             // what the surface is a surface of
+  const std::vector<Vec3>* outliers = nullptr;   // of it
+  const std::vector<Bridge>* bridges = nullptr;  // of its first surface
   const std::vector<Primitive>* primitives = nullptr;
   const std::vector<MadeSet>* sets = nullptr;
   const SurfaceFaces* faces = nullptr;  // of the scan

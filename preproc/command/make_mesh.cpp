@@ -323,6 +323,7 @@ int make_mesh(MakeMeshJob job) {
                           .repaired = &result.repaired,
                           .cloud = std::get_if<PointCloud>(&scan),
                           .outliers = &result.outliers,
+                          .bridges = &result.bridges,
                           .primitives = &result.primitives,
                           .sets = &result.sets,
                           .faces = &result.faces,

@@ -1,5 +1,7 @@
 #include "preproc/surface/reconstruction/cell_sides.hpp"
 
+#include "preproc/surface/reconstruction/hole_voids.hpp"
+
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -7,28 +9,10 @@
 namespace scan2fea {
 namespace {
 
-// Of a hole, by its points.
-struct Void {
-  const Shape* shape;
-  double low = std::numeric_limits<double>::infinity(), high = -low;  // along its axis
-};
-
 class Sides {
  public:
   Sides(const std::vector<Vec3>& points, const DelaunayCells& cells, const Primitives& found)
-      : points_(points), cells_(cells), found_(found) {
-    std::vector<Void> all;
-    for (const Primitive& primitive : found.list) all.push_back({&primitive.shape});
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      if (found.labels[i] == no_primitive) continue;
-      Void& hole = all[found.labels[i]];
-      const double height = (points[i] - hole.shape->origin).dot(hole.shape->axis);
-      hole.low = std::min(hole.low, height);
-      hole.high = std::max(hole.high, height);
-    }
-    for (std::size_t k = 0; k < all.size(); ++k)
-      if (found.list[k].use == PrimitiveUse::hole) holes_.push_back(all[k]);
-  }
+      : points_(points), cells_(cells), found_(found), holes_(find_hole_voids(points, found)) {}
 
   CellSide of(std::uint32_t cell) const {
     Vec3 centre = Vec3::Zero();
@@ -36,17 +20,29 @@ class Sides {
       if (v == DelaunayCells::infinite) return CellSide::unknown;
       centre += points_[v] / 4;
     }
-    return is_in_hole(centre) ? CellSide::outside : by_corners(cells_.corners[cell], centre);
+    return is_in_hole(cell, centre) ? CellSide::outside : by_corners(cells_.corners[cell], centre);
   }
 
  private:
   double near() const { return 2 * found_.sigma; }
 
-  bool is_in_hole(const Vec3& p) const {
-    return std::ranges::any_of(holes_, [&](const Void& hole) {
-      const double height = (p - hole.shape->origin).dot(hole.shape->axis);
-      return height > hole.low && height < hole.high && hole.shape->signed_distance(p) > near();
-    });
+  bool is_in_hole(std::uint32_t cell, const Vec3& centre) const {
+    return std::ranges::any_of(holes_,
+                               [&](const HoleVoid& hole) { return hole.contains(centre) || has_axis(cell, hole); });
+  }
+
+  // Whether the axis runs through the cell: by what the four sides leave of it.
+  bool has_axis(std::uint32_t cell, const HoleVoid& hole) const {
+    double from = hole.low + hole.margin, to = hole.high - hole.margin;
+    for (std::size_t side = 0; side < 4 && from < to; ++side) {
+      const Triangle t = cells_.facet(cell, side);
+      const Vec3 outwards = (points_[t[1]] - points_[t[0]]).cross(points_[t[2]] - points_[t[0]]);
+      const double slope = outwards.dot(hole.shape.axis), room = outwards.dot(points_[t[0]] - hole.shape.origin);
+      if (slope > 0) to = std::min(to, room / slope);
+      if (slope < 0) from = std::max(from, room / slope);
+      if (slope == 0 && room < 0) return false;
+    }
+    return from < to;
   }
 
   double distance(std::uint32_t label, const Vec3& p) const { return found_.list[label].shape.signed_distance(p); }
@@ -119,7 +115,7 @@ class Sides {
   const std::vector<Vec3>& points_;
   const DelaunayCells& cells_;
   const Primitives& found_;
-  std::vector<Void> holes_;
+  std::vector<HoleVoid> holes_;
 };
 
 }  // namespace

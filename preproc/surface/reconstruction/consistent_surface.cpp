@@ -50,7 +50,7 @@ struct Candidate {
   bool is_shaped = false;
   std::size_t faults() const {
     constexpr std::size_t of_body = 10;
-    return of_body * (surface.bodies - 1) + surface.off_surface.size() + surface.crowded_edges + surface.overlong;
+    return of_body * (surface.bodies - 1) + surface.off_surface.size() + surface.pinched_edges + surface.overlong;
   }
 };
 
@@ -103,15 +103,22 @@ class Search {
     constexpr std::size_t few = 20'000;  // beyond, fronts go astray no more, and shapes take long
     const Candidate best = *std::ranges::min_element(candidates_, {}, &Candidate::faults);
     // A surface that crumples tells no shapes: what was scanned is open.
-    if (points_.size() > few || best.surface.crowded_edges > points_.size() / points_of_fault) return;
+    if (points_.size() > few || best.surface.pinched_edges > points_.size() / points_of_fault) return;
     shapes_ = find_primitives({points_, best.surface.triangles}, {}, progress_);
     if (shapes_.kind != ScanKind::part) return look_twice(best);
-    add_instead_of(best,
-                   {.surface = {},
-                    .name = best.name + ", held against the part's shapes",
-                    .fronts = best.fronts,
-                    .is_shaped = true},
-                   sides_by_shapes(points_, cells_, shapes_), seen_);
+    // Where it was astray so were its normals, and with them shapes: the second time there are more of them.
+    for (int round = 0; round < 2; ++round) {
+      add_instead_of(best,
+                     {.surface = {},
+                      .name = best.name + ", held against the part's shapes",
+                      .fronts = best.fronts,
+                      .is_shaped = true},
+                     sides_by_shapes(points_, cells_, shapes_), seen_);
+      if (round > 0 || !candidates_.front().is_shaped) return;
+      Primitives again = find_primitives({points_, candidates_.front().surface.triangles}, {}, progress_);
+      if (again.kind != ScanKind::part) return;
+      shapes_ = std::move(again);
+    }
   }
 
   void look() {
@@ -141,9 +148,7 @@ class Search {
   // Cut by more than fronts say, and alone from then on unless more is wrong with it.
   void add_instead_of(const Candidate& best, Candidate candidate, const std::vector<CellSide>& known,
                       const SeenCells& seen) {
-    candidate.surface.triangles = cut_surface(points_, spacing_, cells_, best.fronts, known, seen);
-    if (candidate.surface.triangles.empty()) return;
-    measure(candidate.surface);
+    if (!take(cut_surface(points_, spacing_, cells_, best.fronts, known, seen), candidate.surface)) return;
     // Where shapes meet in edges, a fault or two may come in with what they mend.
     if (candidate.surface.bodies > best.surface.bodies ||
         candidate.faults() > best.faults() + points_.size() / points_of_fault)
@@ -169,11 +174,9 @@ class Search {
 
   void add_candidate(std::string name, const std::vector<const WoundSurface*>& fronts) {
     Candidate candidate{.surface = {}, .name = std::move(name), .fronts = fronts};
-    candidate.surface.triangles = cut_surface(points_, spacing_, cells_, fronts, {}, seen_);
+    const bool is_any = take(cut_surface(points_, spacing_, cells_, fronts, {}, seen_), candidate.surface);
     progress_("reconstruction", 0.75 + 0.05 * static_cast<double>(candidates_.size()));
-    if (candidate.surface.triangles.empty()) return;
-    measure(candidate.surface);
-    candidates_.push_back(std::move(candidate));
+    if (is_any) candidates_.push_back(std::move(candidate));
   }
 
   // By what its own fronts have in one, and by what any has.
@@ -185,18 +188,18 @@ class Search {
     for (const WoundSurface& front : fronts_) all.push_back(&front);
     for (const auto& fronts : {best.fronts, all}) {
       Candidate joined{.surface = {}, .name = best.name + " with its pieces joined", .fronts = fronts};
-      joined.surface.triangles = join_pieces(points_, spacing_, cells_, fronts, best.surface.triangles, longest, seen_);
-      if (joined.surface.triangles.empty()) continue;
-      measure(joined.surface);
-      candidates_.push_back(std::move(joined));
+      if (take(join_pieces(points_, spacing_, cells_, fronts, best.surface.triangles, longest, seen_), joined.surface))
+        candidates_.push_back(std::move(joined));
     }
   }
 
-  void measure(ConsistentSurface& surface) const {
+  // And measures it; false where there is none.
+  bool take(CutSurface cut, ConsistentSurface& surface) const {
+    if (cut.triangles.empty()) return false;
+    surface.triangles = std::move(cut.triangles);
+    surface.pinched_edges = cut.pinched_edges;
     const SurfaceMesh mesh{points_, surface.triangles};
-    const SurfaceValidity validity = check_validity(mesh);
-    surface.bodies = validity.components;
-    surface.crowded_edges = validity.non_manifold_edges;
+    surface.bodies = check_validity(mesh).components;
     std::vector<bool> used(points_.size(), false);
     for (const Triangle& t : mesh.triangles) {
       for (const std::uint32_t v : t) used[v] = true;
@@ -205,14 +208,15 @@ class Search {
     const TriangleTree tree(mesh);
     for (std::uint32_t i = 0; i < points_.size(); ++i)
       if (!used[i] && !tree.closest_within(points_[i], 0.5 * spacing_[i])) surface.off_surface.push_back(i);
+    return true;
   }
 
   ConsistentSurface choose() {
     const auto best = std::ranges::min_element(candidates_, {}, &Candidate::faults);
     const auto text = [](const ConsistentSurface& s) {
       return std::to_string(s.bodies) + (s.bodies == 1 ? " body, " : " bodies, ") +
-             std::to_string(s.off_surface.size()) + " points off it, " + std::to_string(s.crowded_edges) +
-             " edges of four triangles, " + std::to_string(s.overlong) + " overlong triangles";
+             std::to_string(s.off_surface.size()) + " points off it, " + std::to_string(s.pinched_edges) +
+             " edges where it met itself, " + std::to_string(s.overlong) + " overlong triangles";
     };
     best->surface.choice = best->name + ": " + text(best->surface);
     if (candidates_.size() > 1) {

@@ -18,7 +18,7 @@ struct ConsistentSurface {
   std::vector<bool> is_made_up;            // of each: no front has it, nor a part's shapes: it closes a gap
   std::size_t bodies = 0;                  // pieces that hang together
   std::vector<std::uint32_t> off_surface;  // points that lie off it by half of the spacing
-  std::size_t crowded_edges = 0;           // of four triangles
+  std::size_t pinched_edges = 0;           // where it met itself (pinches.hpp)
   std::size_t overlong = 0;                // triangles whose longest edge is more than `long_for_spacing` spacings
   Primitives shapes;                       // of a part of up to 20,000 points; else none in its list
   std::string choice;                      // which it is of how many, and why

@@ -57,6 +57,30 @@ Triangle DelaunayCells::facet(std::uint32_t cell, std::size_t opposite) const {
   return t;
 }
 
+bool DelaunayCells::is_infinite(std::uint32_t cell) const {
+  return std::ranges::find(corners[cell], infinite) != corners[cell].end();
+}
+
+std::vector<std::uint32_t> DelaunayCells::around(std::uint32_t cell, std::uint32_t a, std::uint32_t b) const {
+  const auto others = [&](std::uint32_t c) {
+    std::vector<std::size_t> found;
+    for (std::size_t k = 0; k < 4; ++k)
+      if (corners[c][k] != a && corners[c][k] != b) found.push_back(k);
+    return found;
+  };
+  std::vector<std::uint32_t> ring;
+  std::size_t leave = others(cell)[0];
+  for (std::uint32_t c = cell; ring.empty() || c != cell;) {
+    ring.push_back(c);
+    const std::vector<std::size_t> both = others(c);
+    const std::uint32_t stays = corners[c][both[0] == leave ? both[1] : both[0]];
+    c = neighbours[c][leave];
+    for (const std::size_t k : others(c))
+      if (corners[c][k] == stays) leave = k;
+  }
+  return ring;
+}
+
 struct Delaunay::Data {
   Triangulation triangulation;
   std::vector<double> spacing;

@@ -21,6 +21,9 @@ struct DelaunayCells {
 
   // Counter-clockwise seen from outside the cell.
   Triangle facet(std::uint32_t cell, std::size_t opposite) const;
+  bool is_infinite(std::uint32_t cell) const;
+  // The cells about the edge ab, in order, from one that has it.
+  std::vector<std::uint32_t> around(std::uint32_t cell, std::uint32_t a, std::uint32_t b) const;
 };
 
 struct FrontSettings {

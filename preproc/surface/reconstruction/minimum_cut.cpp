@@ -3,6 +3,7 @@
 #include "preproc/mesh/union_find.hpp"
 #include "preproc/surface/kernel/components.hpp"
 #include "preproc/surface/kernel/parallel_blocks.hpp"
+#include "preproc/surface/reconstruction/pinches.hpp"
 #include "preproc/surface/reconstruction/winding_number.hpp"
 
 #include <algorithm>
@@ -29,10 +30,6 @@ struct Hash {
     return h ^ (h >> 32);
   }
 };
-
-bool is_infinite(const DelaunayCells& cells, std::uint32_t cell) {
-  return std::ranges::find(cells.corners[cell], DelaunayCells::infinite) != cells.corners[cell].end();
-}
 
 // The pieces, joined across edges, that have a vertex: two where they meet in it.
 std::vector<std::set<std::uint32_t>> pieces_of_vertices(const std::vector<Triangle>& triangles, std::size_t vertices) {
@@ -63,7 +60,7 @@ class Cut {
         cells_(cells),
         seen_(seen),
         winding_(cells.corners.size(), 0.0),
-        gain_(winding_) {
+        costs_{winding_, std::vector<std::array<double, 4>>(cells.corners.size(), {0, 0, 0, 0})} {
     const double share = 1 / static_cast<double>(surfaces.size());
     for (const WoundSurface* surface : surfaces) {
       for (const Triangle& t : surface->triangles) votes_[sorted(t)] += share;
@@ -71,23 +68,23 @@ class Cut {
     }
   }
 
-  std::vector<Triangle> run(const std::vector<CellSide>& known) {
+  CutSurface run(const std::vector<CellSide>& known) {
     take(known);
     cut();
     wind_what_is_voted(surface());
     take(known);
     cut();
     join_at_edges();
-    return surface();
+    return opened();
   }
 
-  std::vector<Triangle> run_joined(const std::vector<const WoundSurface*>& surfaces,
-                                   const std::vector<Triangle>& parted, double longest) {
+  CutSurface run_joined(const std::vector<const WoundSurface*>& surfaces, const std::vector<Triangle>& parted,
+                        double longest) {
     wind_what_is_voted(parted);
     find_gaps(surfaces, parted, longest);
     cut();
     join_at_edges();
-    return surface();
+    return opened();
   }
 
  private:
@@ -112,10 +109,16 @@ class Cut {
 
   void cut() {
     edges_.clear();
-    std::ranges::fill(gain_, 0.0);
+    std::ranges::fill(costs_.gain, 0.0);
     add_cells();
     add_facets();
     find_inside();
+  }
+
+  CutSurface opened() {
+    const std::size_t pinched = count_pinched_edges(cells_, is_inside_);
+    if (pinched > 0) open_pinches(cells_, costs_, is_inside_);
+    return {surface(), pinched};
   }
 
   std::vector<Triangle> surface() const {
@@ -166,16 +169,17 @@ class Cut {
       const double votes = found == votes_.end() ? 0 : found->second;
       // The votes hold for one side as far as the two differ.
       const double step = difference(cell, other);
-      gain_[cell] += area * votes * step;
-      gain_[other] -= area * votes * step;
+      costs_.gain[cell] += area * votes * step;
+      costs_.gain[other] -= area * votes * step;
       const double price = area * cost(t);
-      edges_.push_back({cell, other, price * (1 - votes * std::max(step, 0.0)) + crossed(cell, k)});
-      edges_.push_back(
-          {other, cell, price * (1 - votes * std::max(-step, 0.0)) + crossed(other, corner_across(other, cell))});
+      const std::size_t back = corner_across(other, cell);
+      costs_.price[cell][k] = price * (1 - votes * std::max(step, 0.0)) + crossed(cell, k);
+      costs_.price[other][back] = price * (1 - votes * std::max(-step, 0.0)) + crossed(other, back);
+      edges_.push_back({cell, other, costs_.price[cell][k]});
+      edges_.push_back({other, cell, costs_.price[other][back]});
     });
   }
 
-  std::vector<std::uint32_t> around(std::uint32_t cell, std::uint32_t a, std::uint32_t b) const;
   void join_at_edges();
   void find_gaps(const std::vector<const WoundSurface*>& surfaces, const std::vector<Triangle>& parted, double longest);
   void add_cells();
@@ -188,42 +192,21 @@ class Cut {
   std::unordered_map<Triangle, double, Hash> votes_;  // the share of the surfaces that have it
   std::vector<double> winding_;                       // about each cell's centre, mean of the surfaces, either way
   std::vector<bool> is_gap_;                          // cells between pieces that belong together; or none
-  std::vector<double> gain_;                          // of taking a cell as inside, areas
+  CutCosts costs_;                                    // areas
   std::vector<Edge> edges_;                           // two for each facet, there and back
   std::vector<bool> is_inside_;
 };
 
 void Cut::add_cells() {
   for (std::uint32_t cell = 0; cell < cells_.corners.size(); ++cell) {
-    if (is_infinite(cells_, cell)) continue;
+    if (cells_.is_infinite(cell)) continue;
     double area = 0;
     for (std::size_t k = 0; k < 4; ++k) area += area_of(cells_.facet(cell, k)) / 4;
-    gain_[cell] += area * (2 * winding_[cell] - 1);
-    if (!seen_.inside.empty()) gain_[cell] += seen_.inside[cell];
+    costs_.gain[cell] += area * (2 * winding_[cell] - 1);
+    if (!seen_.inside.empty()) costs_.gain[cell] += seen_.inside[cell];
     constexpr double to_join = 4;  // more than two voted sides cost
-    if (!is_gap_.empty() && is_gap_[cell]) gain_[cell] += to_join * area;
+    if (!is_gap_.empty() && is_gap_[cell]) costs_.gain[cell] += to_join * area;
   }
-}
-
-// The cells about the edge ab, in order, from one that has it.
-std::vector<std::uint32_t> Cut::around(std::uint32_t cell, std::uint32_t a, std::uint32_t b) const {
-  const auto others = [&](std::uint32_t c) {
-    std::vector<std::size_t> found;
-    for (std::size_t k = 0; k < 4; ++k)
-      if (cells_.corners[c][k] != a && cells_.corners[c][k] != b) found.push_back(k);
-    return found;
-  };
-  std::vector<std::uint32_t> ring;
-  std::size_t leave = others(cell)[0];
-  for (std::uint32_t c = cell; ring.empty() || c != cell;) {
-    ring.push_back(c);
-    const std::vector<std::size_t> both = others(c);
-    const std::uint32_t stays = cells_.corners[c][both[0] == leave ? both[1] : both[0]];
-    c = cells_.neighbours[c][leave];
-    for (const std::size_t k : others(c))
-      if (cells_.corners[c][k] == stays) leave = k;
-  }
-  return ring;
 }
 
 // Pieces of the inside that meet in an edge alone are made one there, by the fewer of the cells that part them: a thin
@@ -243,7 +226,7 @@ void Cut::join_at_edges() {
   });
   for (const auto& [edge, entry] : edges) {
     if (entry.first != 4) continue;
-    const std::vector<std::uint32_t> ring = around(entry.second, edge.first, edge.second);
+    const std::vector<std::uint32_t> ring = cells_.around(entry.second, edge.first, edge.second);
     std::vector<std::vector<std::uint32_t>> gaps(1);  // runs of cells outside; the first cell is inside
     std::uint32_t other_piece = entry.second;
     for (const std::uint32_t cell : ring) {
@@ -256,7 +239,7 @@ void Cut::join_at_edges() {
     }
     if (gaps.back().empty()) gaps.pop_back();
     std::erase_if(gaps, [&](const auto& gap) {
-      return std::ranges::any_of(gap, [&](std::uint32_t cell) { return is_infinite(cells_, cell); });
+      return std::ranges::any_of(gap, [&](std::uint32_t cell) { return cells_.is_infinite(cell); });
     });
     if (other_piece == entry.second || gaps.empty()) continue;
     const auto& least = *std::ranges::min_element(gaps, {}, [](const auto& gap) { return gap.size(); });
@@ -279,7 +262,7 @@ void Cut::find_gaps(const std::vector<const WoundSurface*>& surfaces, const std:
   };
   is_gap_.assign(cells_.corners.size(), false);
   for (std::uint32_t cell = 0; cell < cells_.corners.size(); ++cell) {
-    if (is_infinite(cells_, cell)) continue;
+    if (cells_.is_infinite(cell)) continue;
     const auto& c = cells_.corners[cell];
     bool is_short = true, is_between = false;
     for (std::size_t i = 0; i < 4; ++i)
@@ -299,7 +282,7 @@ void Cut::find_inside() {
   const std::uint32_t source = cells, sink = cells + 1;
   for (std::uint32_t cell = 0; cell < cells; ++cell) {
     constexpr double surely = 1e300;
-    const double gain = is_infinite(cells_, cell) ? -surely : gain_[cell];
+    const double gain = cells_.is_infinite(cell) ? -surely : costs_.gain[cell];
     if (gain == 0) continue;
     edges_.push_back(gain > 0 ? Edge{source, cell, gain} : Edge{cell, sink, -gain});
     edges_.push_back(gain > 0 ? Edge{cell, source, 0} : Edge{sink, cell, 0});
@@ -341,7 +324,7 @@ WoundSurface wind(const std::vector<Vec3>& points, const DelaunayCells& cells, s
   WoundSurface surface{std::move(triangles), std::vector<double>(cells.corners.size(), 0.0)};
   for_each_block(cells.corners.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t cell = first; cell < last; ++cell) {
-      if (is_infinite(cells, static_cast<std::uint32_t>(cell))) continue;
+      if (cells.is_infinite(static_cast<std::uint32_t>(cell))) continue;
       Vec3 centre = Vec3::Zero();
       for (const std::uint32_t v : cells.corners[cell]) centre += points[v] / 4;
       surface.winding[cell] = std::min(std::abs(winding(centre)), 1.0);
@@ -350,15 +333,15 @@ WoundSurface wind(const std::vector<Vec3>& points, const DelaunayCells& cells, s
   return surface;
 }
 
-std::vector<Triangle> cut_surface(const std::vector<Vec3>& points, const std::vector<double>& spacing,
-                                  const DelaunayCells& cells, const std::vector<const WoundSurface*>& surfaces,
-                                  const std::vector<CellSide>& known, const SeenCells& seen) {
+CutSurface cut_surface(const std::vector<Vec3>& points, const std::vector<double>& spacing, const DelaunayCells& cells,
+                       const std::vector<const WoundSurface*>& surfaces, const std::vector<CellSide>& known,
+                       const SeenCells& seen) {
   return Cut(points, spacing, cells, surfaces, seen).run(known);
 }
 
-std::vector<Triangle> join_pieces(const std::vector<Vec3>& points, const std::vector<double>& spacing,
-                                  const DelaunayCells& cells, const std::vector<const WoundSurface*>& surfaces,
-                                  const std::vector<Triangle>& parted, double longest, const SeenCells& seen) {
+CutSurface join_pieces(const std::vector<Vec3>& points, const std::vector<double>& spacing, const DelaunayCells& cells,
+                       const std::vector<const WoundSurface*>& surfaces, const std::vector<Triangle>& parted,
+                       double longest, const SeenCells& seen) {
   return Cut(points, spacing, cells, surfaces, seen).run_joined(surfaces, parted, longest);
 }
 

@@ -17,7 +17,12 @@ struct WoundSurface {
 };
 WoundSurface wind(const std::vector<Vec3>& points, const DelaunayCells& cells, std::vector<Triangle> triangles);
 
-// The boundary of those tetrahedra that are inside: closed, oriented outwards and free of crossings, but possibly with
+struct CutSurface {
+  std::vector<Triangle> triangles;
+  std::size_t pinched_edges = 0;  // at which the inside met itself before they were opened (pinches.hpp)
+};
+
+// The boundary of those tetrahedra that are inside: closed, oriented outwards and free of crossings, mostly without
 // edges of four triangles. Inside is where the surfaces wind about a tetrahedron's centre. A triangle that all surfaces
 // have costs nothing; any other costs its area, as much of it as lacks in votes, and more where it is long for the
 // `spacing` at its corners; a voted one that is left out costs its area, too, and a tetrahedron on the wrong side as
@@ -27,15 +32,15 @@ WoundSurface wind(const std::vector<Vec3>& points, const DelaunayCells& cells, s
 // maximum flow is of Boykov and Kolmogorov, 2004, from Boost. Empty where nothing is inside. About 10 us a tetrahedron;
 // parallel in part, the same for any number of threads. `known`: of each tetrahedron, or none. `seen`: what points
 // themselves say (seen_cells.hpp), beside the surfaces; or nothing.
-std::vector<Triangle> cut_surface(const std::vector<Vec3>& points, const std::vector<double>& spacing,
-                                  const DelaunayCells& cells, const std::vector<const WoundSurface*>& surfaces,
-                                  const std::vector<CellSide>& known = {}, const SeenCells& seen = {});
+CutSurface cut_surface(const std::vector<Vec3>& points, const std::vector<double>& spacing, const DelaunayCells& cells,
+                       const std::vector<const WoundSurface*>& surfaces, const std::vector<CellSide>& known = {},
+                       const SeenCells& seen = {});
 
 // The same with pieces of `parted`, such a cut, joined across gaps that are no longer than `longest` spacings, where
 // one of the surfaces has them in one component: a front that turns itself inside out on a thin leg has sheets across
 // it, at which the cut parts the leg.
-std::vector<Triangle> join_pieces(const std::vector<Vec3>& points, const std::vector<double>& spacing,
-                                  const DelaunayCells& cells, const std::vector<const WoundSurface*>& surfaces,
-                                  const std::vector<Triangle>& parted, double longest, const SeenCells& seen = {});
+CutSurface join_pieces(const std::vector<Vec3>& points, const std::vector<double>& spacing, const DelaunayCells& cells,
+                       const std::vector<const WoundSurface*>& surfaces, const std::vector<Triangle>& parted,
+                       double longest, const SeenCells& seen = {});
 
 }  // namespace scan2fea

@@ -7,6 +7,7 @@
 #include "preproc/surface/kernel/unused_vertices.hpp"
 #include "preproc/surface/reconstruction/clean_cloud.hpp"
 #include "preproc/surface/reconstruction/consistent_surface.hpp"
+#include "preproc/surface/reconstruction/hole_voids.hpp"
 #include "preproc/surface/reconstruction/point_views.hpp"
 #include "preproc/surface/reconstruction/poisson.hpp"
 #include "preproc/surface/reconstruction/sided_neighbours.hpp"
@@ -17,6 +18,7 @@
 #include <cmath>
 #include <functional>
 #include <optional>
+#include <utility>
 
 namespace scan2fea {
 namespace {
@@ -35,10 +37,23 @@ void require_small_gaps(const std::vector<SurfacePatch>& gaps, const BoundingBox
                      .at = gaps.front().place});
 }
 
-void find_bridges(const std::vector<Vec3>& points, const std::vector<double>& spacing,
-                  const std::vector<Triangle>& triangles, ReconstructResult& result) {
+// Holes that the part's shapes tell, and what long triangles span beside.
+void find_bridges(const std::vector<Vec3>& points, const std::vector<double>& spacing, const ConsistentSurface& found,
+                  ReconstructResult& result) {
+  const std::vector<Triangle>& triangles = found.triangles;
   std::vector<bool> is_long;
   for (const Triangle& t : triangles) is_long.push_back(length_in_spacings(points, spacing, t) > long_for_spacing);
+  const std::vector<HoleVoid> voids = find_hole_voids(points, found.shapes);
+  for (const BridgedVoid& bridge : find_bridged_voids({points, triangles}, voids)) {
+    const HoleVoid& hole = voids[bridge.of];
+    const double radius = hole.radius_at(hole.height(bridge.place));
+    double widest = 0;
+    for (const std::uint32_t f : bridge.triangles) {
+      is_long[f] = false;
+      for (const std::uint32_t v : triangles[f]) widest = std::max(widest, spacing[v]);
+    }
+    result.bridges.push_back({bridge.place, 2 * radius, widest, bridge.triangles.size(), radius});
+  }
   for (const SurfacePatch& patch : find_patches(points, triangles, is_long)) {
     Bridge bridge{Vec3::Zero(), 0, 0, patch.triangles.size()};
     for (const std::uint32_t f : patch.triangles)
@@ -50,7 +65,9 @@ void find_bridges(const std::vector<Vec3>& points, const std::vector<double>& sp
       }
     result.bridges.push_back(bridge);
   }
-  std::ranges::stable_sort(result.bridges, std::greater(), &Bridge::length);
+  std::ranges::stable_sort(result.bridges, std::greater(), [](const Bridge& bridge) {
+    return std::pair(bridge.hole_radius.has_value(), bridge.length);
+  });
 }
 
 // Of an open scene a closed surface holds what happens to be closed.
@@ -164,7 +181,7 @@ ReconstructResult reconstruct(const PointCloud& cloud, const ReconstructOptions&
   if (cleaned.has_outliers)
     for (const std::uint32_t i : found.off_surface) result.outliers.push_back(points[i]);
   result.choice = std::move(found.choice);
-  find_bridges(points, spacing, found.triangles, result);
+  find_bridges(points, spacing, found, result);
   result.surface = {std::move(points), std::move(found.triangles)};
   drop_unused_vertices(result.surface);
   result.is_made_up = std::move(found.is_made_up);

@@ -43,12 +43,14 @@ struct ReconstructOptions {
   std::vector<Vec3> scanners = {};
 };
 
-// A place where the surface spans what no points are near: a hole that was bridged, or a gap of the scan.
+// A place where the surface spans what no points are near, a gap of the scan or a hole that was bridged, or where it
+// closes a hole whose wall was found.
 struct Bridge {
-  Vec3 place;      // the middle of its longest edge
-  double length;   // of that edge
+  Vec3 place;      // the middle of its longest edge; of a hole, on the surface at the axis
+  double length;   // of that edge; of a hole, its diameter
   double spacing;  // of the points at its ends, the larger
   std::size_t triangles;
+  std::optional<double> hole_radius = {};  // there
 };
 
 struct ReconstructResult {
@@ -68,7 +70,7 @@ struct ReconstructResult {
   double noise = 0;              // of single points: an estimate
   double spacing = 0;            // of the points that stayed: median
   PointDistances distances;      // of the given points without outliers from the surface
-  std::vector<Bridge> bridges;   // longest first
+  std::vector<Bridge> bridges;   // holes first, longest first
   std::string choice;            // which surface was taken, and why
   std::vector<std::string> views;  // of normals and scanners that came with the cloud: what was used, and what not
 };
