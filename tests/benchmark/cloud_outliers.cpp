@@ -1,7 +1,8 @@
 // cloud_outliers TRUTH CLOUD...: what `reconstruct` leaves out of clouds whose outliers are known, and what surface it
 // makes of the rest, as JSON: one object for each CLOUD, an XYZ file of make_cloud, whose last column is 1 for
 // outliers. Gone are outliers that are no vertex of the surface; dropped true points that are said to be outliers, or
-// lie off the surface by half of the spacing. The volume is that after repair, over TRUTH's, less 1.
+// lie off the surface by half of the spacing. Told apart can be those that lie off TRUTH by three standard deviations
+// of the true points: nearer ones are what noise looks like. The volume is that after repair, over TRUTH's, less 1.
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/read_surface.hpp"
 #include "preproc/surface/reconstruction/reconstruct.hpp"
@@ -27,8 +28,25 @@ using namespace scan2fea;
 
 struct KnownCloud {
   PointCloud cloud;
-  std::vector<bool> is_outlier;
+  std::vector<bool> is_outlier, is_plain;  // plain: an outlier that is none of noise
 };
+
+// By distances from the truth.
+void find_plain(const TriangleTree& truth, KnownCloud& known) {
+  constexpr double deviations = 3;
+  std::vector<double> distance;
+  double squares = 0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < known.is_outlier.size(); ++i) {
+    distance.push_back(std::sqrt(truth.closest(known.cloud.points[i]).squared_distance));
+    if (known.is_outlier[i]) continue;
+    squares += distance[i] * distance[i];
+    ++count;
+  }
+  const double sigma = std::sqrt(squares / static_cast<double>(std::max<std::size_t>(count, 1)));
+  for (std::size_t i = 0; i < distance.size(); ++i)
+    known.is_plain.push_back(known.is_outlier[i] && distance[i] > deviations * sigma);
+}
 
 KnownCloud read_known(const char* path) {
   std::ifstream file(path);
@@ -45,7 +63,7 @@ KnownCloud read_known(const char* path) {
 }
 
 struct Shares {
-  double gone_pct = 0, dropped_pct = 0;
+  double gone_pct = 0, plain_gone_pct = 0, plain_pct = 0, dropped_pct = 0;
 };
 
 Shares shares_of(const KnownCloud& known, const ReconstructResult& result) {
@@ -56,20 +74,24 @@ Shares shares_of(const KnownCloud& known, const ReconstructResult& result) {
   std::ranges::sort(vertices, less);
   std::ranges::sort(outliers, less);
   const TriangleTree tree(result.surface);
-  std::size_t all = 0, gone = 0, dropped = 0;
+  std::size_t all = 0, gone = 0, plain = 0, plain_gone = 0, dropped = 0;
   for (std::size_t i = 0; i < known.is_outlier.size(); ++i) {
     const Vec3& p = known.cloud.points[i];
     const bool is_named = std::ranges::binary_search(outliers, p, less);
     all += known.is_outlier[i];
-    if (known.is_outlier[i])
-      gone += is_named || !std::ranges::binary_search(vertices, p, less);
-    else
+    plain += known.is_plain[i];
+    if (known.is_outlier[i]) {
+      const bool is_gone = is_named || !std::ranges::binary_search(vertices, p, less);
+      gone += is_gone;
+      plain_gone += is_gone && known.is_plain[i];
+    } else {
       dropped += is_named || !tree.closest_within(p, 0.5 * result.spacing);
+    }
   }
   const auto share = [](std::size_t part, std::size_t whole) {
     return 100 * static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(whole, 1));
   };
-  return {share(gone, all), share(dropped, known.is_outlier.size() - all)};
+  return {share(gone, all), share(plain_gone, plain), share(plain, all), share(dropped, known.is_outlier.size() - all)};
 }
 
 void print_figures(const KnownCloud& known, double volume) {
@@ -81,12 +103,14 @@ void print_figures(const KnownCloud& known, double volume) {
   const RepairResult repaired = repair(surface);
   const SurfaceValidity validity = check_validity(surface);
   std::printf(
-      "{\"outliers_gone_pct\": %.4g, \"true_dropped_pct\": %.4g, \"volume_pct\": %.4g, \"bodies\": %zu, \"genus\": %d, "
+      "{\"outliers_gone_pct\": %.4g, \"plain_gone_pct\": %.4g, \"plain_pct\": %.4g, \"true_dropped_pct\": %.4g, "
+      "\"volume_pct\": %.4g, \"bodies\": %zu, \"genus\": %d, "
       "\"edge_ratio\": %.4g, \"kept\": %zu, \"outliers\": %zu, \"merged\": %zu, \"noise\": %.4g, \"spacing\": %.4g, "
       "\"bridges\": %zu, \"seconds\": %.3g}",
-      shares.gone_pct, shares.dropped_pct, 100 * (enclosed_volume(surface) / volume - 1), repaired.bodies,
-      validity.genus.value_or(-1), measure_triangles(surface).edge_ratio.mean, result.kept, result.outliers.size(),
-      result.merged, result.noise, result.spacing, result.bridges.size(), seconds);
+      shares.gone_pct, shares.plain_gone_pct, shares.plain_pct, shares.dropped_pct,
+      100 * (enclosed_volume(surface) / volume - 1), repaired.bodies, validity.genus.value_or(-1),
+      measure_triangles(surface).edge_ratio.mean, result.kept, result.outliers.size(), result.merged, result.noise,
+      result.spacing, result.bridges.size(), seconds);
 }
 
 }  // namespace
@@ -97,11 +121,15 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    const double volume = std::abs(enclosed_volume(read_surface(argv[1])));
+    const SurfaceMesh truth = read_surface(argv[1]);
+    const TriangleTree tree(truth);
+    const double volume = std::abs(enclosed_volume(truth));
     for (int i = 2; i < argc; ++i) {
       std::fputs(i == 2 ? "[" : ",\n ", stdout);
       try {
-        print_figures(read_known(argv[i]), volume);
+        KnownCloud known = read_known(argv[i]);
+        find_plain(tree, known);
+        print_figures(known, volume);
       } catch (const Error& error) {
         std::printf("{\"refused\": \"%s\"}", error.parts().what.c_str());
       }

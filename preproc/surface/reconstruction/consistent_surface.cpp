@@ -106,19 +106,12 @@ class Search {
     if (points_.size() > few || best.surface.pinched_edges > points_.size() / points_of_fault) return;
     shapes_ = find_primitives({points_, best.surface.triangles}, {}, progress_);
     if (shapes_.kind != ScanKind::part) return look_twice(best);
-    // Where it was astray so were its normals, and with them shapes: the second time there are more of them.
-    for (int round = 0; round < 2; ++round) {
-      add_instead_of(best,
-                     {.surface = {},
-                      .name = best.name + ", held against the part's shapes",
-                      .fronts = best.fronts,
-                      .is_shaped = true},
-                     sides_by_shapes(points_, cells_, shapes_), seen_);
-      if (round > 0 || !candidates_.front().is_shaped) return;
-      Primitives again = find_primitives({points_, candidates_.front().surface.triangles}, {}, progress_);
-      if (again.kind != ScanKind::part) return;
-      shapes_ = std::move(again);
-    }
+    add_instead_of(best,
+                   {.surface = {},
+                    .name = best.name + ", held against the part's shapes",
+                    .fronts = best.fronts,
+                    .is_shaped = true},
+                   sides_by_shapes(points_, cells_, shapes_), seen_);
   }
 
   void look() {

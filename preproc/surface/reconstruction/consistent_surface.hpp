@@ -33,7 +33,7 @@ double length_in_spacings(const std::vector<Vec3>& points, const std::vector<dou
 // together: fronts are unstable where points are few, and what they agree on is mostly right. Of these surfaces the one
 // that has the least of bodies beyond the first (ten each), points off it, edges where it met itself and overlong
 // triangles; all together where it is as good as any, and alone where nothing is wrong with it. On a part of up to
-// 20,000 points that is cut twice more by what its shapes tell of inside and outside (cell_sides.hpp), and kept so
+// 20,000 points that is cut once more by what its shapes tell of inside and outside (cell_sides.hpp), and kept so
 // unless much more is wrong then: a hole of which few points are known is empty, and walls stand where faces say so; on
 // a free form as small by the points' normals (seen_cells.hpp), which the surface itself tells where none came with the
 // points. `views`: what came with them. Throws NotMeshable where there is no surface. About 200 us a point; parallel in
