@@ -24,14 +24,14 @@ std::string change_table(const Json& report, const char* key, const char* captio
   if (!report.contains(key) || report[key].empty()) return {};
   std::vector<const Json*> changes;
   for (const Json& change : report[key]) changes.push_back(&change);
-  std::stable_sort(changes.begin(), changes.end(), [](const Json* a, const Json* b) {
-    return (*a)["area"].get<double>() > (*b)["area"].get<double>();
-  });
+  std::stable_sort(changes.begin(), changes.end(),
+                   [](const Json* a, const Json* b) { return a->value("area", 0.0) > b->value("area", 0.0); });
   Table table(caption, {"What", "#Size, " + unit_text(report), "#Area, " + unit_text(report, 2), "Place", ""});
   for (std::size_t i = 0; i < std::min(changes.size(), most_rows); ++i) {
     const Json& change = *changes[i];
-    table.row({words(change["what"].get<std::string>()), number(change["size"]), number(change["area"]),
-               place(change["place"]), show_button("place", "Show", change["place"].dump())});
+    table.row({words(change["what"].get<std::string>()), number(change["size"]),
+               change.contains("area") ? number(change["area"]) : std::string(), place(change["place"]),
+               show_button("place", "Show", change["place"].dump())});
   }
   return table.text() + left_out(changes.size());
 }

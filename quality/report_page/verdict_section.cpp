@@ -94,7 +94,7 @@ std::string worst_fact(const Json& report) {
 std::string made_up_fact(const Json& report) {
   if (!report.contains("made_up")) return {};
   double area = 0;
-  for (const Json& change : report["made_up"]) area += change["area"].get<double>();
+  for (const Json& change : report["made_up"]) area += change.value("area", 0.0);
   if (report["made_up"].empty())
     return fact("Made up by repair", "nothing", "Every part of the surface follows what the scanner saw");
   std::string share;
