@@ -188,17 +188,15 @@ const FileFormat* find_format(const std::filesystem::path& file) {
   return it == formats.end() ? nullptr : it;
 }
 
-// Nothing is written compressed.
 std::uint64_t first_element_of(const std::filesystem::path& file, const Numbering& numbers) {
   const FileFormat* format = find_format(file);
   const auto has_numbers = [](const std::optional<Holdings>& holds) { return holds && holds->largest_number > 0; };
-  // These say no numbers, but mean them to be a row from 1 on.
-  constexpr std::array<std::string_view, 3> counted_from_one{".header", ".exo", ".e"};
-  if (format != nullptr && std::ranges::find(counted_from_one, format->extension) != counted_from_one.end()) return 1;
+  if (format != nullptr && format->extension == ".header") return 1;  // Elmer's numbers are a row from 1 on
   const bool numbered = format != nullptr && (has_numbers(format->volume) || has_numbers(format->surface));
   return numbered ? numbers.first_element : 0;
 }
 
+// Nothing is written compressed.
 bool writes_volume(const std::filesystem::path& file) {
   const FileFormat* format = lower_case_extension(file) == ".gz" ? nullptr : find_format(file);
   return format != nullptr && format->write_volume != nullptr;

@@ -52,40 +52,39 @@ void write_elements(TextOutput& out, const TetMesh& mesh, const FileOptions& opt
   }
 }
 
+using NumberOf = std::uint64_t (Numbering::*)(std::uint64_t) const;
+
 // Ten numbers of up to ten digits and their commas keep within a line of CalculiX.
-template <class Number>
-void write_numbers(TextOutput& out, const std::vector<std::uint32_t>& indices, const Number& number_of) {
+void write_numbers(TextOutput& out, const std::vector<std::uint32_t>& indices, const Numbering& numbers,
+                   NumberOf number_of) {
   constexpr std::size_t per_line = 10;
   for (std::size_t i = 0; i < indices.size(); ++i)
-    out << number_of(indices[i]) << (i + 1 == indices.size() || (i + 1) % per_line == 0 ? "\n" : ", ");
+    out << (numbers.*number_of)(indices[i]) << (i + 1 == indices.size() || (i + 1) % per_line == 0 ? "\n" : ", ");
 }
 
 void write_surface_set(TextOutput& out, const TetMesh& mesh, const std::string& name,
                        std::span<const std::uint32_t> faces, const Numbering& numbers) {
   if (faces.empty()) return;
-  const auto element = [&](std::uint32_t t) { return numbers.element(t); };
-  const auto node = [&](std::uint32_t n) { return numbers.node(n); };
   std::array<std::vector<std::uint32_t>, 4> elements;
   for (const std::uint32_t i : faces) elements[mesh.boundary[i].face].push_back(mesh.boundary[i].tetrahedron);
   for (std::size_t f = 0; f < 4; ++f) {
     if (elements[f].empty()) continue;
     std::sort(elements[f].begin(), elements[f].end());
     out << "*ELSET, ELSET=" << name << "_S" << f + 1 << "\n";
-    write_numbers(out, elements[f], element);
+    write_numbers(out, elements[f], numbers, &Numbering::element);
   }
   out << "*SURFACE, NAME=" << name << ", TYPE=ELEMENT\n";
   for (std::size_t f = 0; f < 4; ++f)
     if (!elements[f].empty()) out << name << "_S" << f + 1 << ", S" << f + 1 << "\n";
   out << "*NSET, NSET=" << name << "_NODES\n";
-  write_numbers(out, nodes_of_faces(mesh, faces), node);
+  write_numbers(out, nodes_of_faces(mesh, faces), numbers, &Numbering::node);
 }
 
-template <class Number>
 void write_sets(TextOutput& out, const char* keyword, std::span<const NamedSet> sets,
-                std::span<const std::string> names, const Number& number_of) {
+                std::span<const std::string> names, const Numbering& numbers, NumberOf number_of) {
   for (std::size_t s = 0; s < sets.size(); ++s) {
     out << keyword << names[s] << "\n";
-    write_numbers(out, sets[s].members, number_of);
+    write_numbers(out, sets[s].members, numbers, number_of);
   }
 }
 
@@ -135,10 +134,8 @@ Notes write_inp(const TetMesh& mesh, const std::filesystem::path& file, const Fi
                            "SALL (surface), " + prefix + "SALL_NODES (nodes of the surface)");
     write_nodes(out, mesh.nodes, options);
     write_elements(out, mesh, options);
-    const auto element_number = [&](std::uint32_t e) { return options.numbers.element(e); };
-    const auto node_number = [&](std::uint32_t n) { return options.numbers.node(n); };
-    write_sets(out, "*ELSET, ELSET=", mesh.element_sets, names.elements, element_number);
-    write_sets(out, "*NSET, NSET=", mesh.node_sets, names.nodes, node_number);
+    write_sets(out, "*ELSET, ELSET=", mesh.element_sets, names.elements, options.numbers, &Numbering::element);
+    write_sets(out, "*NSET, NSET=", mesh.node_sets, names.nodes, options.numbers, &Numbering::node);
     std::vector<std::uint32_t> all(mesh.outer_faces());
     std::iota(all.begin(), all.end(), 0U);
     write_surface_set(out, mesh, prefix + "SALL", all, options.numbers);
@@ -166,10 +163,8 @@ Notes write_inp(const NamedSurface& surface, const std::filesystem::path& file, 
       for (const std::uint32_t v : surface.mesh.triangles[t]) out << "," << options.numbers.node(v);
       out << "\n";
     }
-    const auto element_number = [&](std::uint32_t e) { return options.numbers.element(e); };
-    const auto node_number = [&](std::uint32_t n) { return options.numbers.node(n); };
-    write_sets(out, "*ELSET, ELSET=", surface.face_sets, elements, element_number);
-    write_sets(out, "*NSET, NSET=", surface.node_sets, nodes, node_number);
+    write_sets(out, "*ELSET, ELSET=", surface.face_sets, elements, options.numbers, &Numbering::element);
+    write_sets(out, "*NSET, NSET=", surface.node_sets, nodes, options.numbers, &Numbering::node);
   }
   output.commit();
   return notes;

@@ -20,10 +20,11 @@ struct FileNumbers {
 // A volume mesh where the file has tetrahedra, else the surface of its triangles.
 struct MeshFile {
   std::variant<NamedSurface, TetMesh> mesh;
-  FileNumbers numbers;  // that the file gives; none where they are 1, 2, ..., or the format has none of its own
+  // That the file gives, where they are no row from 1 on, and all different; those of nodes only where they are its
+  // own.
+  FileNumbers numbers;
+  bool has_own_numbers = false;       // whoever made the file chose them; else they follow from the format
   std::vector<std::string> warnings;  // what of the file is not in `mesh`, one line each
-  // Per tetrahedron, or triangle, its number in the file, where these are no row from 1 on.
-  std::vector<std::uint32_t> element_numbers = {};
 
   bool is_volume() const { return std::holds_alternative<TetMesh>(mesh); }
 };

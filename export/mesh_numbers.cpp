@@ -27,7 +27,7 @@ std::uint64_t Numbering::largest_element(std::uint64_t count) const {
 }
 
 Notes keep_numbers(const MeshFile& read, const std::filesystem::path& file, FileOptions& options) {
-  if (read.numbers.empty() || options.numbers.are_asked_for()) return {};
+  if (!read.has_own_numbers || read.numbers.empty() || options.numbers.are_asked_for()) return {};
   const FileFormat* format = find_format(file);
   const bool as_volume = read.is_volume() && writes_volume(file);
   if (format != nullptr && as_volume == read.is_volume()) {

@@ -155,17 +155,6 @@ NamedSurface surface_of(const RawMesh& raw, NodeMap& map, const Place& place_of_
   return surface;
 }
 
-// None where they tell no more than the order does.
-std::vector<std::uint32_t> telling_numbers(const std::vector<std::uint64_t>& numbers) {
-  std::vector<std::uint32_t> telling;
-  bool is_row = true;
-  for (const std::uint64_t number : numbers) {
-    telling.push_back(static_cast<std::uint32_t>(number));
-    is_row = is_row && number == telling.size();
-  }
-  return is_row ? std::vector<std::uint32_t>() : telling;
-}
-
 }  // namespace
 
 void RawMesh::add_tetrahedron(std::uint64_t number, std::span<const std::uint64_t> of_file) {
@@ -200,13 +189,13 @@ MeshFile assemble(const RawMesh& raw, const std::filesystem::path& file, const P
     NamedSurface& surface = read.mesh.emplace<NamedSurface>(surface_of(raw, map, place_of_element));
     add_sets(raw, node, surface, read.warnings);
   }
-  read.element_numbers = telling_numbers(elements > 0 ? raw.tetrahedron_numbers : raw.triangle_numbers);
+  read.has_own_numbers = raw.has_own_numbers;
+  read.numbers.elements = elements > 0 ? numbers_of_note(raw.tetrahedron_numbers, elements)
+                                       : numbers_of_note(raw.triangle_numbers, triangles);
   if (raw.has_own_numbers) {
     std::vector<std::uint64_t> of_nodes = map.numbers();
     const std::size_t nodes = of_nodes.size();
     read.numbers.nodes = numbers_of_note(std::move(of_nodes), nodes);
-    read.numbers.elements = elements > 0 ? numbers_of_note(raw.tetrahedron_numbers, elements)
-                                         : numbers_of_note(raw.triangle_numbers, triangles);
   }
   if (raw.passed_over > 0)
     read.warnings.push_back(std::to_string(raw.passed_over) + " elements are neither tetrahedra nor triangles");

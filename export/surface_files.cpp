@@ -23,7 +23,7 @@ Notes write_obj_groups(const NamedSurface& surface, const std::filesystem::path&
 }
 
 MeshFile read_plain_surface(const std::filesystem::path& file) {
-  return {.mesh = read_named_surface(file), .numbers = {}, .warnings = {}};
+  return {.mesh = read_named_surface(file), .numbers = {}, .has_own_numbers = false, .warnings = {}};
 }
 
 }  // namespace scan2fea

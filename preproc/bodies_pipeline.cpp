@@ -106,9 +106,7 @@ class BodiesPipeline {
 
 void BodiesPipeline::take_scans() {
   for (const Body& body : bodies_) {
-    const auto first = static_cast<std::uint32_t>(given_.vertices.size());
-    given_.vertices.insert(given_.vertices.end(), body.surface.vertices.begin(), body.surface.vertices.end());
-    for (const auto& [a, b, c] : body.surface.triangles) given_.triangles.push_back({first + a, first + b, first + c});
+    append(given_, body.surface);
     made_bodies_.push_back({.name = body.name, .volume_of_scan = enclosed_volume(body.surface)});
   }
 }
@@ -144,10 +142,10 @@ void BodiesPipeline::join(StageRecord& record) {
 }
 
 TargetSize finer(TargetSize size) {
-  constexpr double times = 2;  // as many triangles
-  if (auto* faces = std::get_if<FaceCount>(&size)) faces->faces *= 2;
+  constexpr unsigned times = 2;  // as many triangles
+  if (auto* faces = std::get_if<FaceCount>(&size)) faces->faces *= times;
   if (auto* ratio = std::get_if<FaceRatio>(&size)) ratio->of_input *= times;
-  if (auto* edge = std::get_if<MeanEdgeLength>(&size)) edge->length /= std::sqrt(times);
+  if (auto* edge = std::get_if<MeanEdgeLength>(&size)) edge->length /= std::sqrt(double{times});
   if (auto* bound = std::get_if<LargestDeviation>(&size)) bound->distance /= times;  // goes with an edge's square
   return size;
 }
@@ -263,19 +261,16 @@ TetMesh BodiesPipeline::filled(StageRecord& record) {
   return mesh;
 }
 
-// As of one body, see tetrahedra_search.hpp; small meshes alone, since all of it is made again.
+// As of one body; small meshes alone, since all of it is made again.
 bool BodiesPipeline::is_poor() const {
-  constexpr double good_deg = 24, of_bound = 0.9, least_deg = 20;
   constexpr std::size_t most_triangles = 6000;
-  const double enough = std::min(good_deg, std::max(of_bound * surface_allows_deg_, least_deg));
   return made_.mesh.triangles.size() <= most_triangles &&
-         measure_tetrahedra(*result_.volume_mesh).min_dihedral_deg < enough;
+         !is_good_dihedral(measure_tetrahedra(*result_.volume_mesh).min_dihedral_deg, surface_allows_deg_);
 }
 
 // Smaller triangles, and the better mesh.
 void BodiesPipeline::renew(StageRecord& record) {
   constexpr int most_rounds = 2;
-  constexpr double worth_it_deg = 1;
   const auto angle = [&] { return measure_tetrahedra(*result_.volume_mesh).min_dihedral_deg; };
   const double before = angle();
   double best_angle = before;

@@ -1,6 +1,5 @@
 #include "preproc/curved_bodies.hpp"
 
-#include "preproc/bodies/own_vertices.hpp"
 #include "preproc/surface/curved/keep_curved_volume.hpp"
 #include "preproc/surface/simplification/surface_on_scan.hpp"
 
@@ -63,29 +62,6 @@ void fit_sheet(const MadeSheet& sheet, CurvedBodies& bodies, std::vector<bool>& 
   }
 }
 
-// Where spoilt faces are straight as they were.
-void settle(const BodyComplex& made, const CurvedSurface& straight, CurvedBodies& bodies) {
-  constexpr int trials = 10;
-  for (int trial = 0; trial < trials; ++trial) {
-    CurvedSurface shifted = bodies.surface;
-    keep_volumes_of_bodies(made, bodies.directions, shifted);
-    const std::vector<std::uint32_t> spoilt = spoilt_faces(shifted, straight.corners);
-    if (spoilt.empty()) {
-      bodies.surface = std::move(shifted);
-      return;
-    }
-    bodies.straight += spoilt.size();
-    for (const std::uint32_t f : spoilt)
-      for (const std::size_t i : straight.nodes_of(f)) {
-        bodies.surface.node(i) = straight.node(i);
-        bodies.directions[i].setZero();
-      }
-  }
-  bodies.straight = straight.corners.triangles.size();
-  bodies.surface = straight;
-  std::fill(bodies.directions.begin(), bodies.directions.end(), Vec3::Zero());
-}
-
 }  // namespace
 
 void keep_volumes_of_bodies(const BodyComplex& made, const std::vector<Vec3>& directions, CurvedSurface& surface) {
@@ -125,7 +101,10 @@ CurvedBodies fit_bodies(const BodyComplex& made, const FittedCurves& outside, co
   std::vector<bool> is_given(straight.nodes(), false);
   take_outside(outside, outside_before, bodies, is_given);
   for (const MadeSheet& sheet : sheets) fit_sheet(sheet, bodies, is_given, progress);
-  settle(made, straight, bodies);
+  const auto keep_volumes = [&](const std::vector<Vec3>& directions, CurvedSurface& shifted) {
+    keep_volumes_of_bodies(made, directions, shifted);
+  };
+  bodies.straight = settle(straight, keep_volumes, bodies.surface, bodies.directions);
   return bodies;
 }
 

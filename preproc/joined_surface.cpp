@@ -1,7 +1,6 @@
 #include "preproc/joined_surface.hpp"
 
 #include "preproc/bodies/interface_sheets.hpp"
-#include "preproc/bodies/own_vertices.hpp"
 #include "preproc/mesh/error.hpp"
 #include "preproc/surface/features/curve_sampling.hpp"
 #include "preproc/surface/features/feature_curves.hpp"

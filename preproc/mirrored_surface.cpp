@@ -19,6 +19,8 @@ constexpr double rounding_of_diagonal = 1e-8;
 
 // The two places that each point of the half goes to; the same, where it is on the plane.
 struct TwoPlaces {
+  TwoPlaces() = default;
+  explicit TwoPlaces(std::size_t points) : original(points, none), copy(points, none) {}
   std::vector<Index> original, copy;
 };
 
@@ -36,7 +38,8 @@ class Mirroring {
     find_cut();
     MirroredSurface whole;
     whole.made.simplified = half_.simplified;
-    surface_places_ = places(half_.surface.vertices, used_, 0, whole.made.surface.vertices);
+    surface_places_ = TwoPlaces(half_.surface.vertices.size());
+    add_places(half_.surface.vertices, used_, 0, used_.size(), surface_places_, whole.made.surface.vertices);
     mirror_surface(whole.made.surface);
     mirror_lines(whole.made.surface, whole.made.simplified);
     whole.nodes_on_plane = static_cast<std::size_t>(std::count(on_plane_.begin(), on_plane_.end(), true));
@@ -71,14 +74,7 @@ class Mirroring {
     }
   }
 
-  // Puts the points that are `wanted` behind those that are there: first the half's, then their copies.
-  TwoPlaces places(const std::vector<Vec3>& points, const std::vector<bool>& wanted, std::size_t from,
-                   std::vector<Vec3>& whole) const {
-    TwoPlaces to{std::vector<Index>(points.size(), none), std::vector<Index>(points.size(), none)};
-    add_places(points, wanted, from, points.size(), to, whole);
-    return to;
-  }
-
+  // Puts the points that are `wanted` behind those that there are: first the half's, then their copies.
   void add_places(const std::vector<Vec3>& points, const std::vector<bool>& wanted, std::size_t from, std::size_t end,
                   TwoPlaces& to, std::vector<Vec3>& whole) const {
     for (std::size_t v = from; v < end; ++v) {
@@ -104,7 +100,7 @@ class Mirroring {
   }
 
   // Where both sides meet smoothly the cut's border is no line of the whole.
-  std::vector<FeatureEdge> edges_of_the_cut() const {
+  std::vector<FeatureEdge> smooth_edges_of_cut() const {
     constexpr double smooth_sine = 0.26;  // 15 degrees on each side
     std::vector<FeatureEdge> smooth;
     for (const Triangle& t : half_.surface.triangles) {
@@ -118,7 +114,7 @@ class Mirroring {
   }
 
   void mirror_lines(const SurfaceMesh& whole, SimplifyResult& simplified) {
-    const std::vector<FeatureEdge> dropped = edges_of_the_cut();
+    const std::vector<FeatureEdge> dropped = smooth_edges_of_cut();
     std::vector<FeatureEdge> lines;
     for (const FeatureEdge& e : half_.simplified.line_edges) {
       if (std::binary_search(dropped.begin(), dropped.end(), e) || !used_[e[0]] || !used_[e[1]]) continue;
@@ -168,7 +164,7 @@ class Mirroring {
     on_outside.resize(half.nodes.size(), false);
     for (std::size_t v = 0; v < on_surface; ++v) others[v] = !used_[v];
     mesh.nodes.clear();
-    TwoPlaces to{std::vector<Index>(half.nodes.size(), none), std::vector<Index>(half.nodes.size(), none)};
+    TwoPlaces to(half.nodes.size());
     add_places(half.nodes, on_outside, 0, on_surface, to, mesh.nodes);
     add_places(half.nodes, others, 0, corners, to, mesh.nodes);
     add_places(half.nodes, others, corners, half.nodes.size(), to, mesh.nodes);

@@ -29,15 +29,17 @@ constexpr double most_growth = 2, most_of_small = 12000;
 constexpr std::size_t few_triangles = 5000;
 // Of what lacks to moved_deg: vertices of poor elements that gained so much by moving are moved again.
 constexpr double worth_again = 0.25;
-// A smaller gain is not worth other triangles than the ones that were told.
-constexpr double worth_it_deg = 1;
 
 double smallest_dihedral(const FilledSurface& made) {
   return measure_tetrahedra(made.filled.mesh).min_dihedral_deg;
 }
 
+bool is_good(double angle, double allowed, double wanted) {
+  return angle >= std::min(wanted, std::max(of_bound * allowed, least_deg));
+}
+
 bool is_good(double angle, const FilledSurface& made, double wanted_deg) {
-  return angle >= std::min(wanted_deg, std::max(of_bound * made.filled.bound.min_dihedral_deg, least_deg));
+  return is_good(angle, made.filled.bound.min_dihedral_deg, wanted_deg);
 }
 
 std::vector<PoorElement> poor_elements(const FilledSurface& made) {
@@ -59,6 +61,10 @@ std::vector<ShorterEdges> shorter_around(const std::vector<PoorElement>& poor) {
 }
 
 }  // namespace
+
+bool is_good_dihedral(double angle_deg, double allowed_deg) {
+  return is_good(angle_deg, allowed_deg, good_deg);
+}
 
 bool worth_renewing(const SimplifyOptions& simplification, const FilledSurface& made) {
   if (simplification.method != SimplifyMethod::lattice || simplification.effort == Effort::low) return false;

@@ -20,6 +20,12 @@ struct FilledSurface {
 // high, above 50,000 triangles.
 bool worth_renewing(const SimplifyOptions& simplification, const FilledSurface& made);
 
+// Whether this will do as the smallest dihedral angle: 24 degrees, or 0.9 of what the surface allows, but at least 20.
+bool is_good_dihedral(double angle_deg, double allowed_deg);
+
+// A smaller gain is not worth other triangles than the ones that were told.
+inline constexpr double worth_it_deg = 1;
+
 struct RenewalResult {
   FilledSurface made;  // the best, which may be the first
   int rounds = 0;      // surfaces made

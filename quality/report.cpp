@@ -56,7 +56,7 @@ Json points_json(const PointDistances& points) {
   return {{"count", points.points},
           {"largest_distance", figure(points.largest)},
           {"rms_distance", figure(points.rms)},
-          {"farthest_point", Json::array({figure(p.x()), figure(p.y()), figure(p.z())})}};
+          {"farthest_point", point_json(p)}};
 }
 
 Json deviation_json(const Deviation& deviation) {
@@ -65,7 +65,7 @@ Json deviation_json(const Deviation& deviation) {
           {"area_difference_pct", figure(deviation.area_difference_pct)},
           {"hausdorff_pct_diagonal", figure(deviation.hausdorff_pct_diagonal)},
           {"rms_pct_diagonal", figure(deviation.rms_pct_diagonal)},
-          {"farthest_point", Json::array({figure(p.x()), figure(p.y()), figure(p.z())})},
+          {"farthest_point", point_json(p)},
           {"from_mesh", side_json(deviation.from_mesh)},
           {"from_reference", side_json(deviation.from_reference)}};
 }
@@ -182,6 +182,10 @@ SurfaceFigures measure_surface(const SurfaceMesh& mesh) {
   if (surface.validity.encloses_volume()) surface.volume = enclosed_volume(mesh);
   surface.area = surface_area(mesh);
   return surface;
+}
+
+Json point_json(const Vec3& p) {
+  return Json::array({figure(p.x()), figure(p.y()), figure(p.z())});
 }
 
 Json to_json(const Report& report) {

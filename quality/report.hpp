@@ -44,6 +44,9 @@ inline constexpr const char* report_schema = "scan2fea/2";
 
 using Json = nlohmann::ordered_json;  // keys stay in the order above
 
+// [x, y, z].
+Json point_json(const Vec3& p);
+
 struct SurfaceFigures {
   std::size_t vertices = 0;
   std::size_t faces = 0;

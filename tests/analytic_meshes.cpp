@@ -244,9 +244,7 @@ SurfaceMesh voxel_ball(int across) {
 
 SurfaceMesh join(const SurfaceMesh& a, const SurfaceMesh& b) {
   SurfaceMesh both = a;
-  both.vertices.insert(both.vertices.end(), b.vertices.begin(), b.vertices.end());
-  const auto offset = static_cast<std::uint32_t>(a.vertices.size());
-  for (const Triangle& t : b.triangles) both.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
+  append(both, b);
   return both;
 }
 

@@ -46,6 +46,14 @@ TEST(Reconstruct, ABallThroughAllItsPoints) {
   EXPECT_TRUE(result.bridges.empty());
 }
 
+// No shapes are looked for in so many.
+TEST(Reconstruct, ABallOfManyPoints) {
+  const SurfaceMesh ball = analytic::sphere(1, 6);
+  const ReconstructResult result = of_vertices(ball);
+  EXPECT_TRUE(check_validity(result.surface).closed());
+  EXPECT_NEAR(enclosed_volume(result.surface) / enclosed_volume(ball), 1, 1e-4);
+}
+
 TEST(Reconstruct, ATorusKeepsItsHole) {
   const SurfaceMesh torus = analytic::torus(2, 0.7, 90, 40);
   const ReconstructResult result = of_vertices(torus);

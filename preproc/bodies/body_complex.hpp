@@ -1,6 +1,7 @@
 // Bodies that touch, as one set of triangles: where two of them meet they share the same ones.
 #pragma once
 
+#include "preproc/mesh/own_vertices.hpp"
 #include "preproc/mesh/surface_mesh.hpp"
 
 #include <cstddef>
@@ -80,6 +81,11 @@ BodyComplex join_bodies(std::span<const Body> bodies, const JoinOptions& options
 
 // The closed surface of one body, with its vertices as they are numbered in the complex, turned outwards.
 std::vector<Triangle> triangles_of_body(const BodyComplex& complex, std::uint32_t body);
+
+// The same with the vertices that it uses alone.
+inline OwnVertices surface_of_body(const BodyComplex& complex, std::uint32_t body) {
+  return own_vertices(complex.mesh.vertices, triangles_of_body(complex, body));
+}
 
 // How far two tessellations of one surface may be apart where these two surfaces face one another: by the sagittas of
 // their triangles, and 0.00001 of the diagonal, which coordinates of six digits are apart.

@@ -71,12 +71,8 @@ void drop_filled_gaps(std::span<const Body> bodies, BodyComplex& complex) {
 }
 
 void add_apart(BodyComplex& complex, const Body& body, std::uint32_t b) {
-  const auto first = static_cast<std::uint32_t>(complex.mesh.vertices.size());
-  complex.mesh.vertices.insert(complex.mesh.vertices.end(), body.surface.vertices.begin(), body.surface.vertices.end());
-  for (const auto& [v, u, w] : body.surface.triangles) {
-    complex.mesh.triangles.push_back({first + v, first + u, first + w});
-    complex.sides.push_back({.behind = b, .front = no_body});
-  }
+  append(complex.mesh, body.surface);
+  complex.sides.resize(complex.mesh.triangles.size(), {.behind = b, .front = no_body});
 }
 
 // A contact that is but a strip or a speck, as of a rod or a ball on a plate, may have no clear border: then the bodies

@@ -63,10 +63,7 @@ int check(CheckFlags flags) {
   display.line(describe_input(mesh.surface, flags.common));
   const LoadedReference reference = flags.references.empty() ? LoadedReference() : load_references(flags.references);
   Subject subject = subject_of(mesh);
-  subject.reference = reference.surface ? &*reference.surface : nullptr;
-  subject.cloud = reference.cloud ? &*reference.cloud : nullptr;
-  subject.solid_volume = reference.solid_volume;
-  subject.reference_is_of_bodies = reference.is_of_bodies;
+  compare_with(reference, subject);
   subject.inputs = read_files(flags);
   subject.first_element = first_element_of(flags.common.input);
   StagedOutputs outputs;

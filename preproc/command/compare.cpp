@@ -22,10 +22,7 @@ Json column(const LoadedMesh& mesh, const std::filesystem::path& file, const Com
   CommonFlags common = flags.common;
   common.input = file;
   Subject subject = subject_of(mesh);
-  subject.reference = reference.surface ? &*reference.surface : nullptr;
-  subject.reference_is_of_bodies = reference.is_of_bodies;
-  subject.cloud = reference.cloud ? &*reference.cloud : nullptr;
-  subject.solid_volume = reference.solid_volume;
+  compare_with(reference, subject);
   return measure(subject, common);
 }
 
@@ -47,8 +44,7 @@ int compare(CompareFlags flags) {
   // The second one as `check --reference` measures it against the first.
   const LoadedReference as_reference = reference_of(first);
   Subject subject = subject_of(second);
-  subject.reference = &*as_reference.surface;
-  subject.solid_volume = as_reference.solid_volume;
+  compare_with(as_reference, subject);
   subject.inputs = {{"first mesh", flags.common.input}, {"second mesh", flags.second}};
   if (flags.reference) subject.inputs.push_back({"reference", *flags.reference});
   if (flags.common.config) subject.inputs.push_back({"configuration", *flags.common.config});

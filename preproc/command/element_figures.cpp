@@ -21,10 +21,6 @@ std::uint64_t number_of(std::uint32_t element, const Subject& subject) {
   return element < numbers.size() ? numbers[element] : subject.first_element + element;
 }
 
-Json point_json(const Vec3& p) {
-  return {p.x(), p.y(), p.z()};
-}
-
 Json tetrahedra_json(const std::vector<WorstTetrahedron>& worst, const Subject& subject) {
   Json list = Json::array();
   for (const WorstTetrahedron& element : worst) {

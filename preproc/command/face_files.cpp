@@ -15,10 +15,6 @@ namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
 
-Json list(const Vec3& p) {
-  return {p.x(), p.y(), p.z()};
-}
-
 // Neighbouring numbers differ most where hues go round by the golden ratio.
 std::array<int, 3> colour(std::uint32_t face) {
   constexpr double golden = 0.6180339887498949;
@@ -117,15 +113,15 @@ Json face_list(const SurfaceFaces& faces) {
                {"kind", kind_of(face)},
                {"area", face.area},
                {"triangles", face.triangles.size()},
-               {"place", list(face.place)}};
+               {"place", point_json(face.place)}};
     if (face.shape) {
       const Shape& shape = *face.shape;
-      entry["origin"] = list(shape.origin);
+      entry["origin"] = point_json(shape.origin);
       if (shape.kind == ShapeKind::plane) {
-        entry["normal"] = list(shape.axis);
+        entry["normal"] = point_json(shape.axis);
         entry["offset"] = shape.axis.dot(shape.origin);
       } else {
-        if (shape.kind != ShapeKind::sphere) entry["axis"] = list(shape.axis);
+        if (shape.kind != ShapeKind::sphere) entry["axis"] = point_json(shape.axis);
         entry["radius"] = shape.radius;
         entry["hollow"] = shape.hollow;
       }

@@ -28,9 +28,8 @@ Json list_changes(const RepairResult& repaired, bool (*is_listed)(RepairKind)) {
   Json list = Json::array();
   for (const RepairChange& change : repaired.changes) {
     if (!is_listed(change.kind)) continue;
-    const Vec3& p = change.place;
     Json entry{
-        {"what", name(change.kind)}, {"place", {p.x(), p.y(), p.z()}}, {"size", change.size}, {"area", change.area}};
+        {"what", name(change.kind)}, {"place", point_json(change.place)}, {"size", change.size}, {"area", change.area}};
     if (change.volume > 0) entry["volume"] = change.volume;
     list.push_back(std::move(entry));
   }
@@ -39,9 +38,8 @@ Json list_changes(const RepairResult& repaired, bool (*is_listed)(RepairKind)) {
 
 void add_bridges(const std::vector<Bridge>& bridges, Json& list) {
   for (const Bridge& bridge : bridges) {
-    const Vec3& p = bridge.place;
     Json entry{{"what", bridge.hole_radius ? "bridged_hole" : "bridge"},
-               {"place", {p.x(), p.y(), p.z()}},
+               {"place", point_json(bridge.place)},
                {"size", bridge.length},
                {"triangles", bridge.triangles}};
     if (bridge.hole_radius) entry["radius"] = *bridge.hole_radius;
@@ -54,11 +52,10 @@ Json to_json(const std::vector<Primitive>& primitives) {
   Json list = Json::array();
   for (const Primitive& primitive : primitives) {
     const Shape& shape = primitive.shape;
-    Json entry{{"name", describe(primitive)}, {"use", name_of(primitive.use)},
-               {"kind", name_of(shape.kind)}, {"place", {shape.origin.x(), shape.origin.y(), shape.origin.z()}},
-               {"points", primitive.points},  {"fit", primitive.fit},
+    Json entry{{"name", describe(primitive)},       {"use", name_of(primitive.use)}, {"kind", name_of(shape.kind)},
+               {"place", point_json(shape.origin)}, {"points", primitive.points},    {"fit", primitive.fit},
                {"extent", primitive.extent}};
-    if (shape.kind != ShapeKind::sphere) entry["axis"] = {shape.axis.x(), shape.axis.y(), shape.axis.z()};
+    if (shape.kind != ShapeKind::sphere) entry["axis"] = point_json(shape.axis);
     if (shape.kind != ShapeKind::plane) {
       entry["radius"] = shape.radius;
       entry["hollow"] = shape.hollow;
@@ -109,7 +106,7 @@ Json to_json(const std::vector<MadeContact>& contacts) {
                     {"largest_gap", contact.largest_gap},
                     {"largest_overlap", contact.largest_overlap},
                     {"tolerance", contact.tolerance},
-                    {"place", {contact.at.x(), contact.at.y(), contact.at.z()}}});
+                    {"place", point_json(contact.at)}});
   return list;
 }
 
@@ -119,7 +116,7 @@ Json to_json(const std::vector<MadeGap>& gaps) {
     list.push_back({{"bodies", {gap.first, gap.second}},
                     {"size", gap.size},
                     {"tolerance", gap.tolerance},
-                    {"place", {gap.at.x(), gap.at.y(), gap.at.z()}}});
+                    {"place", point_json(gap.at)}});
   return list;
 }
 
@@ -130,7 +127,7 @@ Json to_json(const std::vector<MadeTouch>& touches) {
                     {"kind", touch.length > 0 ? "line" : "point"},
                     {"length", touch.length},
                     {"drawn_apart", touch.moved},
-                    {"place", {touch.at.x(), touch.at.y(), touch.at.z()}}});
+                    {"place", point_json(touch.at)}});
   return list;
 }
 
@@ -155,8 +152,7 @@ Json sets_of(const TetMesh& mesh) {
 
 Json extent_of(const std::vector<Vec3>& points) {
   const BoundingBox box = bounding_box(points);
-  const Vec3 size = box.high - box.low;
-  return {{"box", {size.x(), size.y(), size.z()}}, {"diagonal", box.diagonal()}};
+  return {{"box", point_json(box.high - box.low)}, {"diagonal", box.diagonal()}};
 }
 
 // What a file of figures says beside those that a terminal is told.

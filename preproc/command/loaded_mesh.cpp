@@ -23,17 +23,18 @@ double volume_of_bodies(const std::vector<Body>& bodies) {
 
 LoadedMesh load_mesh(const std::filesystem::path& file) {
   MeshFile read = read_mesh(file);
-  if (first_element_of(file) == 0) read.element_numbers.clear();  // those of the reader alone
+  std::vector<std::uint32_t> numbers;
+  if (first_element_of(file) > 0) numbers.assign(read.numbers.elements.begin(), read.numbers.elements.end());
   if (auto* surface = std::get_if<NamedSurface>(&read.mesh))
     return {.surface = std::move(surface->mesh),
             .volume_mesh = {},
             .face_sets = std::move(surface->face_sets),
-            .element_numbers = std::move(read.element_numbers),
+            .element_numbers = std::move(numbers),
             .unit = std::move(surface->unit)};
   LoadedMesh loaded;
   loaded.volume_mesh = std::get<TetMesh>(std::move(read.mesh));
   loaded.surface = boundary_surface(*loaded.volume_mesh);
-  loaded.element_numbers = std::move(read.element_numbers);
+  loaded.element_numbers = std::move(numbers);
   loaded.unit = loaded.volume_mesh->unit;
   return loaded;
 }
@@ -45,6 +46,13 @@ Subject subject_of(const LoadedMesh& mesh) {
   subject.face_sets = &mesh.face_sets;
   subject.element_numbers = mesh.element_numbers;
   return subject;
+}
+
+void compare_with(const LoadedReference& reference, Subject& subject) {
+  subject.reference = reference.surface ? &*reference.surface : nullptr;
+  subject.cloud = reference.cloud ? &*reference.cloud : nullptr;
+  subject.solid_volume = reference.solid_volume;
+  subject.reference_is_of_bodies = reference.is_of_bodies;
 }
 
 LoadedReference load_reference(const std::filesystem::path& file) {
@@ -74,11 +82,7 @@ LoadedReference load_references(const std::vector<std::filesystem::path>& files)
                         .value = {},
                         .limit = {},
                         .advice = "surfaces, one for each body"});
-    const auto first = static_cast<std::uint32_t>(all.surface->vertices.size());
-    all.surface->vertices.insert(all.surface->vertices.end(), one.surface->vertices.begin(),
-                                 one.surface->vertices.end());
-    for (const auto& [a, b, c] : one.surface->triangles)
-      all.surface->triangles.push_back({first + a, first + b, first + c});
+    append(*all.surface, *one.surface);
     *all.solid_volume +=
         one.solid_volume ? *one.solid_volume : volume_of_solid(*one.surface).value_or(enclosed_volume(*one.surface));
   }

@@ -35,10 +35,14 @@ struct LoadedReference {
   bool is_of_bodies = false;           // see DeviationOptions
 };
 
+// The reference must outlive the subject.
+void compare_with(const LoadedReference& reference, Subject& subject);
+
 LoadedReference load_reference(const std::filesystem::path& file);
 // One of them, or the surfaces of several bodies. Throws WrongUsage for a cloud among several.
 LoadedReference load_references(const std::vector<std::filesystem::path>& files);
-// Of a mesh of second order the surface is curved, in flat pieces; of one of several bodies it is all of their surfaces.
+// Of a mesh of second order the surface is curved, in flat pieces; of one of several bodies it is all of their
+// surfaces.
 LoadedReference reference_of(LoadedMesh mesh);
 
 }  // namespace scan2fea::command

@@ -127,11 +127,8 @@ void add_to_one_body(MakeMeshJob& job, Scan& first) {
     const auto* more = std::get_if<NamedSurface>(&read);
     auto* mesh = std::get_if<SurfaceMesh>(&first);
     if (more == nullptr || mesh == nullptr) refuse_cloud(more == nullptr ? file : job.common.input);
-    const auto vertices = static_cast<std::uint32_t>(mesh->vertices.size());
     const auto triangles = static_cast<std::uint32_t>(mesh->triangles.size());
-    mesh->vertices.insert(mesh->vertices.end(), more->mesh.vertices.begin(), more->mesh.vertices.end());
-    for (const auto& [a, b, c] : more->mesh.triangles)
-      mesh->triangles.push_back({vertices + a, vertices + b, vertices + c});
+    append(*mesh, more->mesh);
     for (const NamedSet& set : more->face_sets) {
       std::vector<NamedSet>& sets = job.pipeline.given_sets;
       std::vector<std::uint32_t>& members = sets[find_or_add_set(sets, set.name)].members;

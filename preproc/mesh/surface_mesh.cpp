@@ -12,6 +12,12 @@ BoundingBox bounding_box(const std::vector<Vec3>& points) {
   return box;
 }
 
+void append(SurfaceMesh& mesh, const SurfaceMesh& more) {
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), more.vertices.begin(), more.vertices.end());
+  for (const auto& [a, b, c] : more.triangles) mesh.triangles.push_back({first + a, first + b, first + c});
+}
+
 std::vector<Vec3> centroids(const SurfaceMesh& mesh) {
   std::vector<Vec3> result;
   result.reserve(mesh.triangles.size());

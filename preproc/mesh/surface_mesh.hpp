@@ -36,6 +36,9 @@ struct Ball {
 // Of all vertices, used by a triangle or not; zero where there are none.
 BoundingBox bounding_box(const std::vector<Vec3>& points);
 
+// Adds the vertices and triangles of another mesh behind those that there are.
+void append(SurfaceMesh& mesh, const SurfaceMesh& more);
+
 // Twice the area, times the unit normal.
 inline Vec3 area_vector(const SurfaceMesh& mesh, const Triangle& t) {
   const Vec3& a = mesh.vertices[t[0]];

@@ -1,8 +1,9 @@
 #include "preproc/mesh/tet_mesh.hpp"
 
+#include "preproc/mesh/own_vertices.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace scan2fea {
 namespace {
@@ -14,22 +15,9 @@ struct Face {
 
 // The triangles, each from its first node on, and the nodes that they use.
 SurfaceMesh numbered_in_order(const TetMesh& mesh, std::vector<Triangle> triangles) {
-  constexpr auto unused = std::numeric_limits<std::uint32_t>::max();
-  std::vector<std::uint32_t> renumbered(mesh.nodes.size(), unused);
-  SurfaceMesh surface{.vertices = {}, .triangles = std::move(triangles)};
-  for (Triangle& t : surface.triangles) {
-    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-    for (const std::uint32_t v : t) renumbered[v] = 0;
-  }
-  std::sort(surface.triangles.begin(), surface.triangles.end());
-  for (std::size_t v = 0; v < mesh.nodes.size(); ++v) {
-    if (renumbered[v] == unused) continue;
-    renumbered[v] = static_cast<std::uint32_t>(surface.vertices.size());
-    surface.vertices.push_back(mesh.nodes[v]);
-  }
-  for (Triangle& t : surface.triangles)
-    for (std::uint32_t& v : t) v = renumbered[v];
-  return surface;
+  for (Triangle& t : triangles) std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  std::sort(triangles.begin(), triangles.end());
+  return own_vertices(mesh.nodes, std::move(triangles)).mesh;
 }
 
 }  // namespace

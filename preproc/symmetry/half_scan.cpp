@@ -1,6 +1,5 @@
 #include "preproc/symmetry/half_scan.hpp"
 
-#include "preproc/mesh/error.hpp"
 #include "preproc/surface/kernel/cut_surface.hpp"
 #include "preproc/surface/kernel/unused_vertices.hpp"
 #include "preproc/surface/sizing/split_long_edges.hpp"

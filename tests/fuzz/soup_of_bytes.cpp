@@ -117,11 +117,7 @@ class Soup {
     add_body(points, faces);
   }
 
-  void add_body(const std::vector<Vec3>& points, const std::vector<Triangle>& faces) {
-    const auto first = static_cast<std::uint32_t>(mesh_.vertices.size());
-    mesh_.vertices.insert(mesh_.vertices.end(), points.begin(), points.end());
-    for (const Triangle& t : faces) mesh_.triangles.push_back({first + t[0], first + t[1], first + t[2]});
-  }
+  void add_body(const std::vector<Vec3>& points, const std::vector<Triangle>& faces) { append(mesh_, {points, faces}); }
 
   std::uint32_t add_vertex(const Vec3& place) {
     mesh_.vertices.push_back(place);

@@ -80,31 +80,8 @@ void fit_nodes(CurvedSurface& surface, const std::vector<Vec3>& directions, cons
   limit_bends(surface);
 }
 
-// With the volume, where spoilt faces are straight as they were.
-void settle(FittedCurves& fitted, const CurvedSurface& straight) {
-  constexpr int trials = 10;
-  for (int trial = 0; trial < trials; ++trial) {
-    CurvedSurface shifted = fitted.surface;
-    keep_curved_volume(shifted, fitted.volumes, fitted.directions);
-    const std::vector<std::uint32_t> spoilt = spoilt_faces(shifted, straight.corners);
-    if (spoilt.empty()) {
-      fitted.surface = std::move(shifted);
-      return;
-    }
-    fitted.straight += spoilt.size();
-    for (const std::uint32_t f : spoilt)
-      for (const std::size_t i : straight.nodes_of(f)) {
-        fitted.surface.node(i) = straight.node(i);
-        fitted.directions[i].setZero();
-      }
-  }
-  fitted.straight = straight.corners.triangles.size();
-  fitted.surface = straight;
-  std::fill(fitted.directions.begin(), fitted.directions.end(), Vec3::Zero());
-}
-
-}  // namespace
-
+// Faces that meet others, each taken as four plane ones, and those whose corners went where they make a needle that is
+// none in `straight`; sorted.
 std::vector<std::uint32_t> spoilt_faces(const CurvedSurface& surface, const SurfaceMesh& straight) {
   std::vector<std::uint32_t> faces;
   for (const FacePair& pair : find_self_intersections(in_four(surface)))
@@ -120,6 +97,32 @@ std::vector<std::uint32_t> spoilt_faces(const CurvedSurface& surface, const Surf
   return faces;
 }
 
+}  // namespace
+
+std::size_t settle(const CurvedSurface& straight, const VolumeKeeper& keep_volume, CurvedSurface& fitted,
+                   std::vector<Vec3>& directions) {
+  constexpr int trials = 10;
+  std::size_t straightened = 0;
+  for (int trial = 0; trial < trials; ++trial) {
+    CurvedSurface shifted = fitted;
+    keep_volume(directions, shifted);
+    const std::vector<std::uint32_t> spoilt = spoilt_faces(shifted, straight.corners);
+    if (spoilt.empty()) {
+      fitted = std::move(shifted);
+      return straightened;
+    }
+    straightened += spoilt.size();
+    for (const std::uint32_t f : spoilt)
+      for (const std::size_t i : straight.nodes_of(f)) {
+        fitted.node(i) = straight.node(i);
+        directions[i].setZero();
+      }
+  }
+  fitted = straight;
+  std::fill(directions.begin(), directions.end(), Vec3::Zero());
+  return straight.corners.triangles.size();
+}
+
 FittedCurves fit_curves(const SurfaceMesh& surface, const FeatureNet& net, const ReferenceSurface& scan,
                         bool keep_corners, const Progress& progress) {
   const CurvedSurface straight(surface);
@@ -127,7 +130,10 @@ FittedCurves fit_curves(const SurfaceMesh& surface, const FeatureNet& net, const
   fitted.directions = directions_of(fitted.surface, keep_corners);
   place_lines(fitted.surface, net, keep_corners, fitted.directions);
   fit_nodes(fitted.surface, fitted.directions, net, scan, progress);
-  settle(fitted, straight);
+  const auto keep_volume = [&](const std::vector<Vec3>& directions, CurvedSurface& shifted) {
+    keep_curved_volume(shifted, fitted.volumes, directions);
+  };
+  fitted.straight = settle(straight, keep_volume, fitted.surface, fitted.directions);
   return fitted;
 }
 

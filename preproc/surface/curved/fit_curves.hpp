@@ -11,6 +11,8 @@
 #include "preproc/surface/features/feature_net.hpp"
 #include "preproc/surface/fit/reference_surface.hpp"
 
+#include <cstddef>
+#include <functional>
 #include <vector>
 
 namespace scan2fea {
@@ -36,8 +38,12 @@ FittedCurves fit_curves(const SurfaceMesh& surface, const FeatureNet& net, const
 std::vector<Vec3> fit_piece(CurvedSurface& surface, const std::vector<bool>& is_held, const FeatureNet& net,
                             const ReferenceSurface& scan, const Progress& progress = {});
 
-// Faces that meet others, each taken as four plane ones, and those whose corners went where they make a needle that is
-// none in `straight`; sorted.
-std::vector<std::uint32_t> spoilt_faces(const CurvedSurface& surface, const SurfaceMesh& straight);
+// Gives a surface the volumes that it should have, by moving its nodes along their directions.
+using VolumeKeeper = std::function<void(const std::vector<Vec3>& directions, CurvedSurface& surface)>;
+
+// The fitted surface with its volumes. Faces that then meet others, or whose corners went where they make a needle, are
+// straight as they were, and so is all of it, where that does not end. Returns how many are straight.
+std::size_t settle(const CurvedSurface& straight, const VolumeKeeper& keep_volume, CurvedSurface& fitted,
+                   std::vector<Vec3>& directions);
 
 }  // namespace scan2fea

@@ -2,6 +2,18 @@
 
 namespace scan2fea {
 
+Vec3 middle_of_neighbours(const SurfaceMesh& mesh, const VertexStars& stars, std::uint32_t vertex) {
+  Vec3 sum = Vec3::Zero();
+  double count = 0;
+  for (const std::uint32_t corner : stars.corners(vertex))
+    for (const std::uint32_t v : mesh.triangles[corner / 3])
+      if (v != vertex) {
+        sum += mesh.vertices[v];
+        ++count;
+      }
+  return sum / count;
+}
+
 std::vector<Vec3> face_normals(const SurfaceMesh& mesh) {
   std::vector<Vec3> normals(mesh.triangles.size());
   for (std::size_t f = 0; f < normals.size(); ++f) {

@@ -27,6 +27,10 @@ struct MeshAdjacency {
   std::vector<Triangle> neighbours;
 };
 
+// The mean of a vertex's neighbours, each counted once for each triangle that it shares with it. Precondition: it has a
+// triangle.
+Vec3 middle_of_neighbours(const SurfaceMesh& mesh, const VertexStars& stars, std::uint32_t vertex);
+
 // Unit normals; zero for a triangle without area.
 std::vector<Vec3> face_normals(const SurfaceMesh& mesh);
 

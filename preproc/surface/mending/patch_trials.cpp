@@ -285,15 +285,7 @@ void Surroundings::relax(Trial& trial) const {
   for (int sweep = 0; sweep < sweeps; ++sweep)
     for (std::uint32_t v = 0; v < held.size(); ++v) {
       if (held[v]) continue;
-      Vec3 sum = Vec3::Zero();
-      double count = 0;
-      for (const std::uint32_t corner : stars.corners(v))
-        for (const std::uint32_t w : patch.triangles[corner / 3])
-          if (w != v) {
-            sum += patch.vertices[w];
-            ++count;
-          }
-      patch.vertices[v] = sum / count;
+      patch.vertices[v] = middle_of_neighbours(patch, stars, v);
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include "preproc/surface/primitives/blend.hpp"
 #include "preproc/surface/primitives/point_normals.hpp"
+#include "preproc/surface/primitives/shape_growth.hpp"
 
 #include <algorithm>
 #include <array>
@@ -17,12 +18,9 @@
 namespace scan2fea {
 namespace {
 
-constexpr std::size_t patch_size = 20;
 // The first planes must be none of the strips that a rounding has room for: ten points a degree of freedom.
 constexpr std::size_t least_first_plane = 30;
 constexpr std::size_t most_first_seeds = 8000, seeds_of_a_probe = 1000;
-// Points that decide a shape while it grows: more would move it by less than the noise.
-constexpr std::size_t most_fitted = 200;
 
 using Index = std::uint32_t;
 
@@ -69,7 +67,7 @@ class Grower {
         noise_(noise),
         interrupt_(interrupt),
         cost_(points.size(), cost_without_shape),
-        mark_(points.size(), 0) {
+        growth_(cloud_, neighbours, noise, grown_, cost_) {
     grown_.labels.assign(points.size(), no_shape);
   }
 
@@ -296,7 +294,7 @@ class Grower {
                          .gain = 0,
                          .relations = {}};
         if (grown.points.size() < 5) grown.points = patch;
-        if (!grow(grown)) {
+        if (!growth_.grow(grown)) {
           // From beside most of the patch is the same; and what has spread far in vain would do so again.
           const std::size_t beside = grown.points.size() > 3 * patch_size ? patch.size() : patch_size / 3;
           for (const Index i : std::span(patch).first(std::min(beside, patch.size()))) covered[kind][i] = true;
@@ -350,7 +348,7 @@ class Grower {
               .shape = shape, .freedom = blend->freedom(), .points = held_by(shape, patch), .gain = 0, .relations = {}};
           if (grown.points.size() < least_points) continue;
           grown.relations.tangent_to = std::array{sides[a], sides[b]};
-          if (grow(grown) && (!best || grown.gain > best->gain)) best = std::move(grown);
+          if (growth_.grow(grown) && (!best || grown.gain > best->gain)) best = std::move(grown);
         }
     return best;
   }
@@ -376,76 +374,6 @@ class Grower {
     return guesses;
   }
 
-  // Fits the shape to its points and spreads from them over others that it describes better than what they have, until
-  // both stay. At most threefold at a time: a shape fitted to few points is not to be trusted far off.
-  bool grow(FoundShape& grown) {
-    constexpr int most_rounds = 12, steps_while_growing = 4;
-    std::vector<Index> members = grown.points;
-    for (int round = 0; round < most_rounds; ++round) {
-      if (!fit_shape(grown.shape, grown.freedom, cloud_.points, spread_over(members), noise_.sigma, steps_while_growing)
-               .found)
-        return false;
-      if (members.size() > patch_size && rms_distance(cloud_, grown.shape, members) > 2 * noise_.sigma) {
-        grown.points = std::move(members);
-        return false;
-      }
-      // The axis has turned.
-      if (grown.is_free()) grown.freedom = full_freedom(grown.shape);
-      std::vector<Index> next = flooded(grown.shape, members, 3 * members.size());
-      if (next.size() < 4) return false;
-      const bool same = next == members;
-      members = std::move(next);
-      if (same) break;
-    }
-    grown.points = std::move(members);
-    return rate(grown);
-  }
-
-  static std::vector<Index> spread_over(const std::vector<Index>& members) {
-    const std::size_t stride = 1 + members.size() / most_fitted;
-    std::vector<Index> some;
-    for (std::size_t k = 0; k < members.size(); k += stride) some.push_back(members[k]);
-    return some;
-  }
-
-  std::vector<Index> flooded(const Shape& shape, const std::vector<Index>& from, std::size_t most) {
-    ++round_;
-    std::vector<Index> region;
-    const auto visit = [&](Index i) {
-      if (mark_[i] == round_) return;
-      mark_[i] = round_;
-      if (saving(shape, i) > 0) region.push_back(i);
-    };
-    for (const Index i : from) visit(i);
-    for (std::size_t next = 0; next < region.size() && region.size() < most; ++next) {
-      const auto near = neighbours_.of(region[next]);
-      for (const Index j : near.first(std::min<std::size_t>(10, near.size()))) visit(j);
-    }
-    std::sort(region.begin(), region.end());
-    return region;
-  }
-
-  // Of a point's cost, were the shape to describe it. Beside a shape that has it and runs the same way, costs that
-  // noise explains count alike: else each plane would lose the farther half of its noise to another one.
-  double saving(const Shape& shape, Index i) const {
-    constexpr double noise_alone = 10;  // exceeded by 1 % of squared distances and turns together
-    constexpr double same_way = 0.985;  // cosine of 10 degrees
-    const double cost = cost_of(cloud_, noise_, shape, i);
-    if (!(cost < most_cost)) return 0;
-    const Index label = grown_.labels[i];
-    if (label == no_shape) return cost_without_shape - cost;
-    const Vec3& p = cloud_.points[i];
-    if (grown_.shapes[label].shape.normal(p).dot(shape.normal(p)) < same_way) return cost_[i] - cost;
-    return std::max(cost_[i], noise_alone) - std::max(cost, noise_alone);
-  }
-
-  bool rate(FoundShape& grown) const {
-    double saved = 0;
-    for (const Index i : grown.points) saved += saving(grown.shape, i);
-    grown.gain = saved - description_cost(grown.shape.kind, grown.freedom);
-    return grown.gain > 0 && leaves_noise(cloud_, neighbours_, noise_, grown.shape, grown.points);
-  }
-
   // Where planes and cylinders can still come, a small ball or torus over both is premature.
   static double strictness(const FoundShape& grown) {
     return is_usual(grown.shape.kind) || grown.relations.tangent_to ? 1 : 4;
@@ -464,7 +392,7 @@ class Grower {
       const auto [gain, i] = queue.top();
       queue.pop();
       FoundShape& grown = waiting[i];
-      if (!grow(grown) || grown.gain <= least_gain * strictness(grown)) continue;
+      if (!growth_.grow(grown) || grown.gain <= least_gain * strictness(grown)) continue;
       if (grown.gain < 0.95 * gain && !queue.empty() && grown.gain < queue.top().first) {
         queue.emplace(grown.gain, i);
         continue;
@@ -494,10 +422,9 @@ class Grower {
   const std::vector<Vec3>& outwards_;
   const ShapeNoise& noise_;
   const Interrupt& interrupt_;
-  std::vector<double> cost_;  // of each point as it is described now
-  std::vector<std::uint32_t> mark_;
-  std::uint32_t round_ = 0;
   ShapeSet grown_;
+  std::vector<double> cost_;  // of each point as it is described now
+  ShapeGrowth growth_;
 };
 
 }  // namespace

@@ -94,6 +94,7 @@ std::vector<HoleVoid> find_hole_voids(const std::vector<Vec3>& points, const Pri
                      .margin = of_sigma * found.sigma,
                      .points = 0});
   }
+  if (voids.empty()) return voids;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const std::uint32_t label = found.labels[i];
     if (label == no_primitive || void_of[label] == no_primitive) continue;

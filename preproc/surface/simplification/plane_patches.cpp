@@ -103,15 +103,7 @@ class Flattening {
     std::sort(near.begin(), near.end());
     for (const std::uint32_t v : near) {
       if (is_held_[v] || !is_in_plane(v)) continue;
-      Vec3 sum = Vec3::Zero();
-      double count = 0;
-      for (const std::uint32_t corner : stars_.corners(v))
-        for (const std::uint32_t n : mesh_.triangles[corner / 3])
-          if (n != v) {
-            sum += mesh_.vertices[n];
-            ++count;
-          }
-      mesh_.vertices[v] = sum / count;
+      mesh_.vertices[v] = middle_of_neighbours(mesh_, stars_, v);
     }
   }
 

@@ -11,10 +11,10 @@
 #include "preproc/surface/simplification/surface_on_scan.hpp"
 #include "preproc/surface/sizing/even_planes.hpp"
 #include "preproc/surface/sizing/split_long_edges.hpp"
+#include "quality/triangle_measures.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <memory>
 
 namespace scan2fea {
@@ -35,7 +35,7 @@ bool would_be_needles(const SurfaceMesh& sheet, double limit) {
       longest = std::max(longest, (sheet.vertices[t[k]] - sheet.vertices[t[(k + 1) % 3]]).norm());
     halved += std::max(1.0, longest / limit);
   }
-  const double needed = surface_area(sheet) / (std::sqrt(3.0) / 4 * limit * limit);
+  const double needed = surface_area(sheet) / (equilateral_area * limit * limit);
   return halved > many * (needed + static_cast<double>(sheet.triangles.size()));
 }
 

@@ -1,4 +1,4 @@
-#include "preproc/bodies/own_vertices.hpp"
+#include "preproc/mesh/own_vertices.hpp"
 
 #include <limits>
 #include <utility>

@@ -1,7 +1,7 @@
 // Some triangles of many as a mesh of their own.
 #pragma once
 
-#include "preproc/bodies/body_complex.hpp"
+#include "preproc/mesh/surface_mesh.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -14,10 +14,5 @@ struct OwnVertices {
   SurfaceMesh mesh;
 };
 OwnVertices own_vertices(const std::vector<Vec3>& all, std::vector<Triangle> triangles);
-
-// The closed surface of one body, turned outwards.
-inline OwnVertices surface_of_body(const BodyComplex& complex, std::uint32_t body) {
-  return own_vertices(complex.mesh.vertices, triangles_of_body(complex, body));
-}
 
 }  // namespace scan2fea
