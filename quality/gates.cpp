@@ -1,6 +1,9 @@
 #include "quality/gates.hpp"
 
 #include "preproc/mesh/error.hpp"
+#include "preproc/mesh/error_text.hpp"
+#include "quality/figure_names.hpp"
+#include "quality/figure_path.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -8,7 +11,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -25,11 +27,6 @@ constexpr std::array<Operator, 5> operators{{{"<=", Comparison::at_most},
                                              {"==", Comparison::equal},
                                              {"<", Comparison::below},
                                              {">", Comparison::above}}};
-
-std::string_view sign_of(Comparison comparison) {
-  return std::find_if(operators.begin(), operators.end(), [&](const Operator& o) { return o.comparison == comparison; })
-      ->sign;
-}
 
 bool holds(double value, Comparison comparison, double limit) {
   switch (comparison) {
@@ -62,57 +59,8 @@ std::optional<double> parse_limit(std::string_view text) {
   return limit;
 }
 
-void add_names(const Json& json, const std::string& prefix, std::vector<std::string>& names) {
-  for (const auto& [key, value] : json.items()) {
-    if (value.is_object())
-      add_names(value, prefix + key + ".", names);
-    else if (!value.is_array())
-      names.push_back(prefix + key);
-  }
-}
-
-// The names of all figures, those of a report with every section.
-std::vector<std::string> all_names() {
-  Report full;
-  full.surface.emplace();
-  full.deviation.emplace();
-  full.points.emplace();
-  full.volume_mesh.emplace();
-  const Json json = to_json(full);
-  std::vector<std::string> names;
-  for (const char* section : {"surface", "deviation", "points", "volume_mesh"})
-    add_names(json[section], std::string(section) + ".", names);
-  return names;
-}
-
 std::string_view without_section(std::string_view name) {
   return name.substr(name.find('.') + 1);
-}
-
-// Levenshtein's: insertions, deletions and replacements.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i + 1);
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i] != b[j]);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replaced, diagonal + 1, row[j] + 1});
-    }
-  }
-  return row.back();
-}
-
-std::string nearest_names(std::string_view name, std::vector<std::string> names) {
-  const auto distance = [&](const std::string& candidate) {
-    // What was typed in full and is only incomplete, as edge_ratio for edge_ratio.mean, is nearest of all.
-    if (candidate.find(name) != std::string::npos) return std::size_t{0};
-    return std::min(edit_distance(name, candidate), edit_distance(name, without_section(candidate)));
-  };
-  std::stable_sort(names.begin(), names.end(),
-                   [&](const std::string& a, const std::string& b) { return distance(a) < distance(b); });
-  return names[0] + ", " + names[1] + " or " + names[2];
 }
 
 WrongUsage wrong_name(std::string what, std::string_view name, std::string advice) {
@@ -124,65 +72,61 @@ WrongUsage wrong_name(std::string what, std::string_view name, std::string advic
 }
 
 std::string full_name(std::string_view name) {
-  if (name.starts_with("stages.")) return std::string(name);  // which figures a stage has is known when it has run
-  const std::vector<std::string> names = all_names();
+  if (find_figure_path(name)) return std::string(name);
+  constexpr std::array<std::string_view, 4> sections{"surface", "deviation", "points", "volume_mesh"};
   std::vector<std::string> matches;
   bool is_group = false;  // edge_ratio is a figure of the volume mesh, but of the surface it is five
-  for (const std::string& candidate : names) {
-    if (candidate == name) return candidate;
-    if (without_section(candidate) == name) matches.push_back(candidate);
-    is_group = is_group || without_section(candidate).starts_with(std::string(name) + ".");
+  for (const NamedFigure& figure : all_figures()) {
+    if (std::ranges::count(sections, figure.section) == 0) continue;
+    if (without_section(figure.name) == name) matches.push_back(figure.name);
+    is_group = is_group || without_section(figure.name).starts_with(std::string(name) + ".");
   }
-  if (matches.empty()) throw wrong_name("no figure has this name", name, nearest_names(name, names));
-  if (is_group) throw wrong_name("several figures have this name", name, nearest_names(name, names));
+  if (matches.empty()) throw wrong_name("no figure has this name", name, nearest_figures(name));
+  if (is_group) throw wrong_name("several figures have this name", name, nearest_figures(name));
   if (matches.size() > 1) throw wrong_name("several figures have this name", name, matches[0] + " or " + matches[1]);
   return matches[0];
 }
 
-// Null where there is none. Stages are a list of objects with a name.
-const Json* member(const Json& json, const std::string& name) {
-  if (json.is_array()) {
-    const auto stage =
-        std::find_if(json.begin(), json.end(), [&](const Json& s) { return s.value("name", "") == name; });
-    return stage == json.end() ? nullptr : &*stage;
-  }
-  const auto found = json.find(name);
-  return found == json.end() ? nullptr : &*found;
-}
-
-// Null where the report has no figure of this name.
-Json figure_of(const Gate& gate, const Json& report) {
-  const Json* json = &report;
-  for (std::size_t begin = 0; begin <= gate.name.size();) {
-    const std::size_t end = std::min(gate.name.find('.', begin), gate.name.size());
-    json = member(*json, gate.name.substr(begin, end - begin));
-    if (json == nullptr) return nullptr;
-    begin = end + 1;
-  }
-  return *json;
-}
-
-double value_of(const Gate& gate, const Json& report) {
-  const Json figure = figure_of(gate, report);
-  if (figure.is_boolean()) return figure.get<bool>() ? 1 : 0;
-  if (figure.is_number() && std::isfinite(figure.get<double>())) return figure.get<double>();
+void require_section(const Gate& gate, const Json& report) {
   const std::string section = gate.name.substr(0, gate.name.find('.'));
-  std::string advice = "another figure: this one has no meaning for this input";
-  if (!report.contains(section))
-    advice = section == "deviation" ? "--reference, since a deviation is one from a reference"
-             : section == "points"  ? "a point cloud, as input or as --reference"
-                                    : "a figure that this input has: it has none of " + section;
+  if (report.contains(section)) return;
   throw WrongUsage({.what = "the report has no value for a required figure",
-                    .where = "--require",
+                    .where = gate.set.empty() ? "--require" : "--gates " + gate.set,
                     .value = gate.name,
                     .limit = {},
-                    .advice = advice});
+                    .advice = section == "deviation" ? "--reference, since a deviation is one from a reference"
+                              : section == "points"  ? "a point cloud, as input or as --reference"
+                                                     : "a figure that this input has: it has none of " + section});
+}
+
+bool bounds_above(const Gate& gate) {
+  return gate.comparison != Comparison::at_least && gate.comparison != Comparison::above;
+}
+
+bool bounds_below(const Gate& gate) {
+  return gate.comparison != Comparison::at_most && gate.comparison != Comparison::below;
+}
+
+bool replaces(const Gate& asked, const Gate& other) {
+  return asked.name == other.name &&
+         ((bounds_above(asked) && bounds_above(other)) || (bounds_below(asked) && bounds_below(other)));
+}
+
+bool are_the_same(const Gate& a, const Gate& b) {
+  return a.name == b.name && a.comparison == b.comparison && a.limit == b.limit;
 }
 
 }  // namespace
 
+std::string_view sign_of(Comparison comparison) {
+  return std::find_if(operators.begin(), operators.end(), [&](const Operator& o) { return o.comparison == comparison; })
+      ->sign;
+}
+
 Gate parse_gate(std::string_view text) {
-  const std::size_t at = text.find_first_of("<>=");
+  // The last one: a name may be that of a set, which may hold anything.
+  std::size_t at = text.find_last_of("<>=");
+  if (at != std::string_view::npos && at > 0 && text[at] == '=' && text.find_last_of("<>=", at - 1) == at - 1) --at;
   const auto sign = std::find_if(operators.begin(), operators.end(), [&](const Operator& o) {
     return at != std::string_view::npos && text.substr(at).starts_with(o.sign);
   });
@@ -196,11 +140,44 @@ Gate parse_gate(std::string_view text) {
   return {full_name(trimmed(text.substr(0, at))), sign->comparison, *limit};
 }
 
+void refuse_contradictions(const std::vector<Gate>& gates) {
+  for (const Gate& low : gates)
+    for (const Gate& high : gates) {
+      if (low.name != high.name || !bounds_below(low) || !bounds_above(high)) continue;
+      const bool is_met = holds(high.limit, low.comparison, low.limit) && holds(low.limit, high.comparison, high.limit);
+      if (low.limit < high.limit || is_met) continue;
+      throw WrongUsage({.what = "no value of a figure meets two gates on it",
+                        .where = "--require",
+                        .value = low.name + std::string(sign_of(low.comparison)) + error_text(low.limit),
+                        .limit = high.name + std::string(sign_of(high.comparison)) + error_text(high.limit),
+                        .advice = "one of the two"});
+    }
+}
+
+std::vector<Gate> combined(std::vector<Gate> asked, const std::vector<Gate>& of_sets) {
+  std::vector<Gate> gates;
+  for (Gate& gate : asked)
+    if (std::ranges::none_of(gates, [&](const Gate& other) { return are_the_same(gate, other); }))
+      gates.push_back(std::move(gate));
+  const std::size_t asked_for = gates.size();
+  for (const Gate& gate : of_sets)
+    if (std::none_of(gates.begin(), gates.begin() + static_cast<std::ptrdiff_t>(asked_for),
+                     [&](const Gate& own) { return replaces(own, gate); }))
+      gates.push_back(gate);
+  return gates;
+}
+
 std::vector<GateResult> evaluate_gates(const std::vector<Gate>& gates, const Json& report) {
   std::vector<GateResult> results;
   for (const Gate& gate : gates) {
-    const double value = value_of(gate, report);
-    results.push_back({gate, value, holds(value, gate.comparison, gate.limit)});
+    require_section(gate, report);
+    FigurePath figure = find_figure_path(gate.name, &report).value_or(FigurePath{});
+    GateResult result{gate, figure.value, figure.value && holds(*figure.value, gate.comparison, gate.limit)};
+    if (!figure.value) result.reason = figure.missing.empty() ? "the format has no such figure" : figure.missing;
+    if (figure.value && figure.place && figure.place->is_array() && (*figure.place)[0].is_number())
+      result.place = figure.place->get<std::vector<double>>();
+    if (figure.value) result.element = figure.element;
+    results.push_back(std::move(result));
   }
   return results;
 }
@@ -211,12 +188,19 @@ bool all_pass(const std::vector<GateResult>& results) {
 
 Json to_json(const std::vector<GateResult>& results) {
   Json json = Json::array();
-  for (const auto& [gate, value, pass] : results)
-    json.push_back({{"name", gate.name},
-                    {"operator", sign_of(gate.comparison)},
-                    {"value", value},
-                    {"limit", gate.limit},
-                    {"pass", pass}});
+  for (const GateResult& result : results) {
+    Json entry{{"name", result.gate.name},
+               {"operator", sign_of(result.gate.comparison)},
+               {"value", result.value ? Json(*result.value) : Json(nullptr)},
+               {"limit", result.gate.limit},
+               {"pass", result.pass}};
+    if (!result.reason.empty()) entry["reason"] = result.reason;
+    if (!result.gate.set.empty()) entry["set"] = result.gate.set;
+    if (!result.gate.source.empty()) entry["source"] = result.gate.source;
+    if (result.place) entry["place"] = *result.place;
+    if (result.element) entry["element"] = *result.element;
+    json.push_back(std::move(entry));
+  }
   return json;
 }
 

@@ -76,6 +76,8 @@ Json volume_mesh_json(const TetSummary& tets) {
           {"order", tets.order},
           {"min_dihedral_deg", figure(tets.min_dihedral_deg)},
           {"max_dihedral_deg", figure(tets.max_dihedral_deg)},
+          {"min_face_angle_deg", figure(tets.min_face_angle_deg)},
+          {"max_face_angle_deg", figure(tets.max_face_angle_deg)},
           {"scaled_jacobian", {{"min", figure(tets.scaled_jacobian.min)}, {"mean", figure(tets.scaled_jacobian.mean)}}},
           {"edge_ratio", figure(tets.edge_ratio)},
           {"radius_edge_ratio", figure(tets.radius_edge_ratio)},
@@ -146,8 +148,9 @@ std::string volume_mesh_table(const Json& v) {
   std::string table = "volume mesh\n";
   table += row("size", text(v["nodes"]) + " nodes, " + text(v["tetrahedra"]) + " tetrahedra of order " +
                            text(v["order"]) + ", " + text(v["inverted"]) + " inverted");
-  table += row("dihedral angles",
-               text(v["min_dihedral_deg"], "%.2f") + " to " + text(v["max_dihedral_deg"], "%.2f") + " deg");
+  table += row("dihedral angles", text(v["min_dihedral_deg"], "%.2f") + " to " + text(v["max_dihedral_deg"], "%.2f") +
+                                      " deg, of faces " + text(v["min_face_angle_deg"], "%.2f") + " to " +
+                                      text(v["max_face_angle_deg"], "%.2f") + " deg");
   table += row("scaled Jacobian",
                "mean " + text(v["scaled_jacobian"]["mean"]) + ", min " + text(v["scaled_jacobian"]["min"]));
   table += row("edge ratio", "max " + text(v["edge_ratio"]));

@@ -1,6 +1,6 @@
 // The figures of a mesh as one JSON object, the contract of `check --json`, and as a table for people.
 //
-// Schema "scan2fea/2", which report.schema.json tells in full:
+// Schema "scan2fea/3", which report.schema.json tells in full:
 //   schema, input,
 //   surface {vertices, faces, edge_ratio {mean, p50, p95, p99, max}, min_angle_deg {mean, min}, max_angle_deg,
 //            radius_ratio {mean, min}, degenerate, closed, manifold, oriented, self_intersections, unused_vertices,
@@ -8,15 +8,16 @@
 //   deviation {volume_difference_pct, area_difference_pct, hausdorff_pct_diagonal, rms_pct_diagonal, farthest_point,
 //              from_mesh {hausdorff_pct_diagonal, rms_pct_diagonal}, from_reference {the same}},
 //   points {count, largest_distance, rms_distance, farthest_point},
-//   volume_mesh {nodes, tetrahedra, order, min_dihedral_deg, max_dihedral_deg, scaled_jacobian {min, mean}, edge_ratio,
-//                radius_edge_ratio, volume, inverted},
+//   volume_mesh {nodes, tetrahedra, order, min_dihedral_deg, max_dihedral_deg, min_face_angle_deg, max_face_angle_deg,
+//                scaled_jacobian {min, mean}, edge_ratio, radius_edge_ratio, volume, inverted},
 //   faces [{name, kind, area, triangles, place, what its kind has}],
 //   sets [{name, kind, area, area_of_scan, area_difference_pct, triangles; of a file's elements volume, tetrahedra, of
 //          nodes nodes}],
 //   bodies [{name, volume, volume_of_scan, volume_difference_pct, volume_joined, tetrahedra}],
 //   contacts [{bodies, set, triangles_closed, largest_gap, largest_overlap, tolerance, place}],
 //   gaps [{bodies, size, tolerance, place}], touches [{bodies, kind, length, drawn_apart, place}],
-//   regions [{name, area, faces}], gates [{name, operator, value, limit, pass}]
+//   regions [{name, area, faces}], gates [{name, operator, value, limit, pass; reason, set, source,
+//   place, element}]
 // The command adds where it comes from (program, command, inputs, output, size, reference) and single elements
 // (histograms, worst_elements).
 // Of a volume mesh of second order, volumes, areas, deviation, points and volume_mesh are those of the curved elements
@@ -40,7 +41,7 @@
 namespace scan2fea {
 
 // Rises with every change of the format; tests/check_report_format.py holds it against report.schema.json.
-inline constexpr const char* report_schema = "scan2fea/2";
+inline constexpr const char* report_schema = "scan2fea/3";
 
 using Json = nlohmann::ordered_json;  // keys stay in the order above
 

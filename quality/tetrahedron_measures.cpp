@@ -1,6 +1,7 @@
 #include "quality/tetrahedron_measures.hpp"
 
 #include "quality/jacobian_bound.hpp"
+#include "quality/triangle_measures.hpp"
 
 #include <tbb/parallel_for.h>
 
@@ -22,6 +23,7 @@ constexpr std::array<std::array<std::size_t, 3>, 4> edges_at_corner{{{0, 2, 3}, 
 
 struct Extremes {
   double min_dihedral_deg = 180, max_dihedral_deg = 0;
+  double min_face_angle_deg = 180, max_face_angle_deg = 0;
   double min_jacobian = 1, sum_jacobian = 0;
   double edge_ratio = 0, radius_edge_ratio = 0;
   std::size_t inverted = 0;
@@ -99,6 +101,11 @@ Extremes measure_range(const TetMesh& mesh, std::size_t begin, std::size_t end) 
     const TetShape shape = measure_tetrahedron(mesh, i);
     extremes.min_dihedral_deg = std::min(extremes.min_dihedral_deg, shape.min_dihedral_deg);
     extremes.max_dihedral_deg = std::max(extremes.max_dihedral_deg, shape.max_dihedral_deg);
+    const Tetrahedron& corners = mesh.tetrahedra[i];
+    const FaceAngles angles = measure_face_angles(mesh.nodes[corners[0]], mesh.nodes[corners[1]],
+                                                  mesh.nodes[corners[2]], mesh.nodes[corners[3]]);
+    extremes.min_face_angle_deg = std::min(extremes.min_face_angle_deg, angles.min_deg);
+    extremes.max_face_angle_deg = std::max(extremes.max_face_angle_deg, angles.max_deg);
     extremes.min_jacobian = std::min(extremes.min_jacobian, shape.scaled_jacobian);
     extremes.sum_jacobian += shape.scaled_jacobian;
     extremes.edge_ratio = std::max(extremes.edge_ratio, shape.edge_ratio.value_or(0));
@@ -170,6 +177,20 @@ TetShape measure_tetrahedron(const TetMesh& mesh, std::size_t tetrahedron) {
   return mesh.order() == 1 || is_straight(x) ? measure_tetrahedron(x[0], x[1], x[2], x[3]) : measure_curved(x);
 }
 
+FaceAngles measure_face_angles(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  const std::array<Vec3, 4> corner{a, b, c, d};
+  FaceAngles angles{180, 0};
+  for (std::size_t apex = 0; apex < 4; ++apex) {
+    const std::size_t other[3] = {(apex + 1) % 4, (apex + 2) % 4, (apex + 3) % 4};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double angle = angle_deg(corner[apex], corner[other[k]], corner[other[(k + 1) % 3]]);
+      angles.min_deg = std::min(angles.min_deg, angle);
+      angles.max_deg = std::max(angles.max_deg, angle);
+    }
+  }
+  return angles;
+}
+
 TetSummary measure_tetrahedra(const TetMesh& mesh) {
   TetSummary summary;
   summary.nodes = mesh.nodes.size();
@@ -185,10 +206,13 @@ TetSummary measure_tetrahedra(const TetMesh& mesh) {
     blocks[block] = measure_range(mesh, block * block_size, std::min(mesh.tetrahedra.size(), (block + 1) * block_size));
   });
   summary.min_dihedral_deg = 180;
+  summary.min_face_angle_deg = 180;
   summary.scaled_jacobian.min = 1;
   for (const Extremes& block : blocks) {
     summary.min_dihedral_deg = std::min(summary.min_dihedral_deg, block.min_dihedral_deg);
     summary.max_dihedral_deg = std::max(summary.max_dihedral_deg, block.max_dihedral_deg);
+    summary.min_face_angle_deg = std::min(summary.min_face_angle_deg, block.min_face_angle_deg);
+    summary.max_face_angle_deg = std::max(summary.max_face_angle_deg, block.max_face_angle_deg);
     summary.scaled_jacobian.min = std::min(summary.scaled_jacobian.min, block.min_jacobian);
     summary.scaled_jacobian.mean += block.sum_jacobian;
     summary.edge_ratio = std::max(summary.edge_ratio, block.edge_ratio);

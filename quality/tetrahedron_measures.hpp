@@ -34,12 +34,21 @@ double curved_scaled_jacobian(const CurvedTetrahedron& nodes);
 // Of an element of the mesh, of either order.
 TetShape measure_tetrahedron(const TetMesh& mesh, std::size_t tetrahedron);
 
+// The angles at the corners of its four faces, what Abaqus, Ansys and Nastran limit; of straight edges. Not among the
+// shape, since they cost as much as all of it. An edge without length makes angles of 0.
+struct FaceAngles {
+  double min_deg, max_deg;  // 60 and 60 for a regular tetrahedron
+};
+FaceAngles measure_face_angles(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+
 struct TetSummary {
   std::size_t nodes = 0;
   std::size_t tetrahedra = 0;  // where it is 0, so are all figures
   int order = 1;
   double min_dihedral_deg = 0;
   double max_dihedral_deg = 0;
+  double min_face_angle_deg = 0;  // see FaceAngles
+  double max_face_angle_deg = 0;
   struct {
     double min = 0, mean = 0;
   } scaled_jacobian;

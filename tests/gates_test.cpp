@@ -42,7 +42,7 @@ TEST(Gates, AFailedGateFailsTheWhole) {
                                       report_of(analytic::box({1, 1, 1}, 1)));
   ASSERT_EQ(results.size(), 2U);
   EXPECT_FALSE(results[0].pass);
-  EXPECT_NEAR(results[0].value, std::sqrt(2.0), 1e-12);
+  EXPECT_NEAR(*results[0].value, std::sqrt(2.0), 1e-12);
   EXPECT_TRUE(results[1].pass);
   EXPECT_FALSE(all_pass(results));
   EXPECT_TRUE(all_pass({}));
@@ -58,11 +58,63 @@ TEST(Gates, NamesWithAndWithoutTheSection) {
 
 TEST(Gates, FiguresOfStages) {
   Json report = report_of(analytic::box({1, 1, 1}, 1));
-  report["stages"] = {{{"name", "repair"}, {"seconds", 1}}, {{"name", "simplify"}, {"feature_edges_unsupported", 3}}};
+  report["stages"] = {{{"name", "repair"}, {"seconds", 1}},
+                      {{"name", "simplify"}, {"feature_edges_unsupported", 3}, {"seconds", 2}},
+                      {{"name", "second order"}, {"nodes", 10}}};
   EXPECT_TRUE(passes("stages.simplify.feature_edges_unsupported<=3", report));
   EXPECT_FALSE(passes("stages.simplify.feature_edges_unsupported<=2", report));
-  EXPECT_THROW(passes("stages.simplify.seconds<=2", report), WrongUsage);
-  EXPECT_THROW(passes("stages.renewal.seconds<=2", report), WrongUsage);
+  EXPECT_TRUE(passes("stages.second_order.nodes==10", report));
+  EXPECT_TRUE(passes("stages.seconds.sum==3", report));
+  // Kinds of changes are told where there are any.
+  EXPECT_TRUE(passes("stages.repair.closed_hole==0", report));
+  EXPECT_FALSE(passes("stages.renewal.seconds<=2", report)) << "there was none";
+  EXPECT_FALSE(passes("stages.second_order.seconds<=2", report)) << "it has no such figure";
+}
+
+TEST(Gates, NamesOfStagesAreKnownBeforeAnyWork) {
+  EXPECT_THAT(error_from<WrongUsage>([] { parse_gate("stages.repair.closed_holes==0"); }).what(),
+              HasSubstr("stages.repair.closed_hole"));
+  EXPECT_THAT(error_from<WrongUsage>([] { parse_gate("stages.simplfy.faces_after<=9"); }).what(),
+              HasSubstr("stages.simplify.faces_after"));
+}
+
+TEST(Gates, AnOwnGateReplacesThatOfASetOnTheSameSide) {
+  const auto names = [](const std::vector<Gate>& gates) {
+    std::vector<std::string> list;
+    for (const Gate& gate : gates)
+      list.push_back(gate.set + ":" + gate.name + std::string(sign_of(gate.comparison)) +
+                     std::to_string(static_cast<int>(gate.limit)));
+    return list;
+  };
+  const std::vector<Gate> set{{"surface.area", Comparison::at_most, 5, "s", ""},
+                              {"surface.area", Comparison::at_least, 1, "s", ""},
+                              {"surface.faces", Comparison::below, 9, "s", ""}};
+  EXPECT_THAT(names(combined({}, set)),
+              testing::ElementsAre("s:surface.area<=5", "s:surface.area>=1", "s:surface.faces<9"));
+  EXPECT_THAT(names(combined({parse_gate("surface.area<7")}, set)),
+              testing::ElementsAre(":surface.area<7", "s:surface.area>=1", "s:surface.faces<9"));
+  EXPECT_THAT(names(combined({parse_gate("surface.area==2")}, set)),
+              testing::ElementsAre(":surface.area==2", "s:surface.faces<9"));
+  EXPECT_EQ(combined({parse_gate("surface.area<7"), parse_gate("surface.area<7")}, {}).size(), 1U);
+}
+
+TEST(Gates, TwoThatNoValueMeetsAreRefused) {
+  const auto refused = [](const std::string& a, const std::string& b) {
+    try {
+      refuse_contradictions({parse_gate(a), parse_gate(b)});
+    } catch (const WrongUsage&) {
+      return true;
+    }
+    return false;
+  };
+  EXPECT_TRUE(refused("surface.faces<=5", "surface.faces>=6"));
+  EXPECT_TRUE(refused("surface.faces<5", "surface.faces>=5"));
+  EXPECT_TRUE(refused("surface.faces==5", "surface.faces==6"));
+  EXPECT_TRUE(refused("surface.faces>5", "surface.faces==5"));
+  EXPECT_FALSE(refused("surface.faces<=5", "surface.faces>=5"));
+  EXPECT_FALSE(refused("surface.faces<=5", "surface.faces<=6"));
+  EXPECT_FALSE(refused("surface.faces==5", "surface.faces==5"));
+  EXPECT_FALSE(refused("surface.faces<=5", "surface.area>=6"));
 }
 
 TEST(Gates, YesAndNo) {
@@ -106,8 +158,13 @@ TEST(Gates, AMissingFigureIsNeverPassed) {
 
   SurfaceMesh open = analytic::sphere(1, 1);
   open.triangles.pop_back();
-  EXPECT_THROW(passes("genus<=100", report_of(open)), WrongUsage);
-  EXPECT_THROW(passes("surface.volume<=1e9", report_of(open)), WrongUsage);
+  for (const char* gate : {"genus<=100", "genus>=-100", "surface.volume<=1e9"}) {
+    const auto results = evaluate_gates({parse_gate(gate)}, report_of(open));
+    EXPECT_FALSE(results[0].pass) << gate;
+    EXPECT_FALSE(results[0].value) << gate;
+    EXPECT_NE(results[0].reason, "") << gate;
+    EXPECT_TRUE(to_json(results)[0]["value"].is_null());
+  }
 }
 
 TEST(Gates, JsonHoldsNameValueLimitAndPass) {

@@ -4,7 +4,6 @@
 #include "quality/report_page/colour_maps.hpp"
 #include "quality/report_page/deflate.hpp"
 #include "quality/report_page/html.hpp"
-#include "quality/report_page/measure_definitions.hpp"
 #include "quality/report_page/packed_arrays.hpp"
 #include "quality/report_page/page_sections.hpp"
 #include "quality/report_page/picture.hpp"
@@ -194,16 +193,54 @@ TEST(ReportPage, FaultsAreNamedInTheVerdict) {
   EXPECT_THAT(verdict_section(to_json(figures)), HasSubstr("not closed"));
 }
 
-TEST(MeasureDefinitions, EveryFigureThatCanBeGatedHasAMeaning) {
+TEST(ReportPage, EveryMeasureIsAFigureWithALabelAndAMeaning) {
   Report full;
   full.surface.emplace();
   full.deviation.emplace();
+  full.points.emplace();
   full.volume_mesh.emplace();
   const Json report = to_json(full);
-  for (const MeasureDefinition& measure : measure_definitions())
-    if (!measure.figure.starts_with("points.")) {
-      EXPECT_NE(html::find_figure(report, measure.figure), nullptr) << measure.figure;
-    }
+  for (const NamedFigure& measure : shown_figures()) {
+    EXPECT_NE(html::find_figure(report, measure.name), nullptr) << measure.name;
+    EXPECT_NE(measure.label, "") << measure.name;
+    EXPECT_NE(measure.meaning, "") << measure.name;
+  }
+}
+
+TEST(ReportPage, LimitsAreNamedWithTheirSources) {
+  Report figures;
+  figures.volume_mesh.emplace();
+  const std::string section = measures_section(to_json(figures));
+  EXPECT_THAT(section, HasSubstr("above 165 warning [A]"));
+  EXPECT_THAT(section, HasSubstr("170 or more warning [N]"));
+  EXPECT_THAT(section, HasSubstr("<b>[N]</b> Autodesk Nastran"));
+  EXPECT_THAT(section, testing::Not(HasSubstr("<b>[V]</b>"))) << "no figure of triangles is shown";
+}
+
+TEST(ReportPage, GatesTellWhereTheyFailAndWhatTheyAreFrom) {
+  Report figures;
+  figures.surface = measure_surface(analytic::sphere(10, 2));
+  Json report = to_json(figures);
+  report["gates"] = {{{"name", "surface.max_angle_deg"},
+                      {"operator", "<="},
+                      {"value", 171},
+                      {"limit", 165},
+                      {"pass", false},
+                      {"set", "ansys"},
+                      {"source", "Ansys <SHPP>"},
+                      {"place", {1, 2, 3}},
+                      {"element", 42}},
+                     {{"name", "surface.genus"},
+                      {"operator", "=="},
+                      {"value", nullptr},
+                      {"limit", 0},
+                      {"pass", false},
+                      {"reason", "this mesh has none"}}};
+  const std::string section = verdict_section(report);
+  EXPECT_THAT(section, HasSubstr("2 of 2 gates failed"));
+  EXPECT_THAT(section, HasSubstr("element 42 at (1, 2, 3)"));
+  EXPECT_THAT(section, HasSubstr("<b>ansys</b> Ansys &lt;SHPP&gt;"));
+  EXPECT_THAT(section, HasSubstr("this mesh has none"));
 }
 
 }  // namespace

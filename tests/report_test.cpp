@@ -49,7 +49,8 @@ TEST(Report, HoldsTheContractsKeys) {
                                                               "hausdorff_pct_diagonal", "rms_pct_diagonal"}));
   EXPECT_THAT(keys(json["volume_mesh"]),
               testing::ElementsAre("nodes", "tetrahedra", "order", "min_dihedral_deg", "max_dihedral_deg",
-                                   "scaled_jacobian", "edge_ratio", "radius_edge_ratio", "volume", "inverted"));
+                                   "min_face_angle_deg", "max_face_angle_deg", "scaled_jacobian", "edge_ratio",
+                                   "radius_edge_ratio", "volume", "inverted"));
   EXPECT_THAT(keys(json["regions"][0]), testing::ElementsAre("name", "area", "faces"));
 }
 

@@ -51,6 +51,22 @@ TEST(TetrahedronMeasures, CornerOfACube) {
   EXPECT_NEAR(*shape.radius_edge_ratio, std::sqrt(3.0) / 2, 1e-14);
 }
 
+TEST(TetrahedronMeasures, AnglesOfFaces) {
+  const FaceAngles regular = measure_face_angles({1, 1, 1}, {-1, 1, -1}, {1, -1, -1}, {-1, -1, 1});
+  EXPECT_NEAR(regular.min_deg, 60, 1e-12);
+  EXPECT_NEAR(regular.max_deg, 60, 1e-12);
+  const FaceAngles corner = measure_face_angles({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1});
+  EXPECT_NEAR(corner.min_deg, 45, 1e-12);
+  EXPECT_NEAR(corner.max_deg, 90, 1e-12);
+  // A cap: its apex lies just above the middle of a regular base, where edges meet at almost 120 degrees.
+  const double h = 1e-4;
+  const FaceAngles cap =
+      measure_face_angles({1, 0, 0}, {-0.5, std::sqrt(0.75), 0}, {-0.5, -std::sqrt(0.75), 0}, {0, 0, h});
+  EXPECT_NEAR(cap.max_deg, 120, 1e-5);
+  EXPECT_LT(cap.max_deg, 120);
+  EXPECT_NEAR(cap.min_deg, 30, 1e-5);
+}
+
 TEST(TetrahedronMeasures, ASliverKeepsItsDigits) {
   // A square whose diagonals are h apart: dihedral angles near 0 at the sides, near 180 at the diagonals.
   const double h = 1e-9;

@@ -1,6 +1,7 @@
 #include "export/formats.hpp"
 #include "export/units.hpp"
 #include "preproc/command/figures.hpp"
+#include "preproc/command/gates_asked.hpp"
 #include "preproc/command/loaded_mesh.hpp"
 #include "preproc/command/output_files.hpp"
 #include "preproc/command/sub_commands.hpp"
@@ -50,7 +51,7 @@ std::vector<ReadFile> read_files(const CheckFlags& flags) {
 }
 
 int check(CheckFlags flags) {
-  const std::vector<Gate> gates = parse_gates(flags.common);
+  const AskedGates asked = parse_gates(flags.common);
   std::vector<std::filesystem::path> inputs = inputs_of(flags.common);
   inputs.insert(inputs.end(), flags.references.begin(), flags.references.end());
   std::vector<OutputPath> files = report_outputs(flags.common);
@@ -60,6 +61,7 @@ int check(CheckFlags flags) {
   const LoadedMesh mesh = load_mesh(flags.common.input);
   const std::string unit = settled_unit(mesh.unit, flags.common.unit, flags.common.input.string());
   if (!unit.empty()) flags.common.unit = unit;
+  const std::vector<Gate> gates = gates_for(asked, mesh.volume_mesh.has_value());
   display.line(describe_input(mesh.surface, flags.common));
   const LoadedReference reference = flags.references.empty() ? LoadedReference() : load_references(flags.references);
   Subject subject = subject_of(mesh);

@@ -1,6 +1,7 @@
 #include "export/formats.hpp"
 #include "export/units.hpp"
 #include "preproc/command/figures.hpp"
+#include "preproc/command/gates_asked.hpp"
 #include "preproc/command/loaded_mesh.hpp"
 #include "preproc/command/output_files.hpp"
 #include "preproc/command/sub_commands.hpp"
@@ -27,13 +28,14 @@ Json column(const LoadedMesh& mesh, const std::filesystem::path& file, const Com
 }
 
 int compare(CompareFlags flags) {
-  const std::vector<Gate> gates = parse_gates(flags.common);
+  const AskedGates asked = parse_gates(flags.common);
   std::vector<std::filesystem::path> inputs = inputs_of(flags.common);
   inputs.push_back(flags.second);
   if (flags.reference) inputs.push_back(*flags.reference);
   require_writable(report_outputs(flags.common), inputs, flags.common.force);
   ProgressDisplay display(flags.common.quiet);
   const LoadedMesh first = load_mesh(flags.common.input), second = load_mesh(flags.second);
+  const std::vector<Gate> gates = gates_for(asked, second.volume_mesh.has_value());
   const std::string unit =
       settled_unit(first.unit.empty() ? second.unit : first.unit, flags.common.unit, flags.common.input.string());
   settled_unit(second.unit, unit.empty() ? std::nullopt : std::optional(unit), flags.second.string());

@@ -70,9 +70,9 @@ std::vector<Setting> settings_in(const toml::table& table, const CLI::App& root,
     const std::string key(name.str());
     if (node.is_table()) continue;
     CLI::Option* option = command.get_option_no_throw("--" + key);
-    if (option != nullptr && key != "config") {
+    if (option != nullptr && option->get_configurable() && key != "config") {
       settings.push_back({option, values_of(node, place(file, node), key), place(file, node)});
-    } else if (!known_to_any(root, key) || key == "config") {
+    } else if (option != nullptr || !known_to_any(root, key)) {
       throw WrongUsage({.what = "unknown option",
                         .where = place(file, node),
                         .value = key,

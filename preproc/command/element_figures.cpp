@@ -16,17 +16,12 @@ const std::vector<NamedSet>& face_sets_of(const Subject& subject) {
   return subject.face_sets != nullptr ? *subject.face_sets : none;
 }
 
-std::uint64_t number_of(std::uint32_t element, const Subject& subject) {
-  const std::vector<std::uint32_t>& numbers = subject.element_numbers;
-  return element < numbers.size() ? numbers[element] : subject.first_element + element;
-}
-
 Json tetrahedra_json(const std::vector<WorstTetrahedron>& worst, const Subject& subject) {
   Json list = Json::array();
   for (const WorstTetrahedron& element : worst) {
     const TetShape& shape = element.shape;
     const Json edge_ratio = shape.edge_ratio ? Json(*shape.edge_ratio) : Json(nullptr);
-    list.push_back({{"element", number_of(element.index, subject)},
+    list.push_back({{"element", element_number(element.index, subject)},
                     {"place", point_json(element.place)},
                     {"scaled_jacobian", shape.scaled_jacobian},
                     {"min_dihedral_deg", shape.min_dihedral_deg},
@@ -41,7 +36,7 @@ Json tetrahedra_json(const std::vector<WorstTetrahedron>& worst, const Subject& 
 Json triangles_json(const std::vector<WorstTriangle>& worst, const Subject& subject) {
   Json list = Json::array();
   for (const WorstTriangle& element : worst)
-    list.push_back({{"element", number_of(element.index, subject)},
+    list.push_back({{"element", element_number(element.index, subject)},
                     {"place", point_json(element.place)},
                     {"min_angle_deg", element.shape.min_angle_deg},
                     {"max_angle_deg", element.shape.max_angle_deg},
@@ -59,6 +54,11 @@ std::string title_of(const Json& report, const Subject& subject) {
 }
 
 }  // namespace
+
+std::uint64_t element_number(std::uint32_t element, const Subject& subject) {
+  const std::vector<std::uint32_t>& numbers = subject.element_numbers;
+  return element < numbers.size() ? numbers[element] : subject.first_element + element;
+}
 
 ElementFigures measure_elements(const Subject& subject) {
   ElementFigures elements;

@@ -16,6 +16,9 @@ struct ElementFigures {
   std::vector<std::uint32_t> worst;  // elements, the worst first; found by add_to_json
 };
 
+// By which a user knows the element.
+std::uint64_t element_number(std::uint32_t element, const Subject& subject);
+
 // Precondition: the subject has a surface.
 ElementFigures measure_elements(const Subject& subject);
 

@@ -2,6 +2,7 @@
 #include "export/units.hpp"
 #include "preproc/command/face_files.hpp"
 #include "preproc/command/figures.hpp"
+#include "preproc/command/gates_asked.hpp"
 #include "preproc/command/sub_commands.hpp"
 #include "preproc/mesh/error.hpp"
 #include "preproc/surface/repair/repair.hpp"
@@ -59,6 +60,7 @@ Subject subject_of(const SurfaceMesh& mesh, const std::vector<NamedSet>& sets, c
 }
 
 int list_faces(FacesFlags flags) {
+  const std::vector<Gate> gates = gates_for(parse_gates(flags.common), false);
   if (flags.output && !is_face_file(*flags.output))
     throw WrongUsage({.what = "unknown format of the output",
                       .where = flags.output->string(),
@@ -91,11 +93,14 @@ int list_faces(FacesFlags flags) {
   report["sets"] = given;
   report["gates"] = Json::array();
   const std::vector<NamedSet> sets = sets_of(faces);
-  write_files(report, subject_of(mesh, sets, flags.common), flags.common, outputs);
-  if (flags.output) outputs.add(*flags.output, face_file(mesh, faces, *flags.output));
-  if (!flags.common.quiet && flags.common.json != "-") write_to_stdout(table);
+  const std::vector<GateResult> results =
+      finish_report(report, subject_of(mesh, sets, flags.common), flags.common, gates, outputs);
+  const bool passed = all_pass(results);
+  if (flags.output && passed) outputs.add(*flags.output, face_file(mesh, faces, *flags.output));
+  if (!flags.common.quiet && flags.common.json != "-" && flags.common.junit != "-") write_to_stdout(table);
+  tell_failures(results, flags.common.input);
   outputs.commit();
-  return 0;
+  return passed ? 0 : 1;
 }
 
 }  // namespace

@@ -2,8 +2,10 @@
 
 #include "preproc/command/element_figures.hpp"
 #include "preproc/command/face_files.hpp"
+#include "preproc/command/gates_asked.hpp"
 #include "preproc/surface/repair/solid_volume.hpp"
 #include "quality/curved_surface.hpp"
+#include "quality/junit.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -176,13 +178,6 @@ std::string size_text(const std::vector<Vec3>& points, const CommonFlags& flags)
   return text + flags.unit.value_or("(no --unit given)");
 }
 
-std::string describe(const GateResult& result) {
-  char text[160];
-  std::snprintf(text, sizeof text, "gate failed: %s is %.6g (limit: %.6g)", result.gate.name.c_str(), result.value,
-                result.gate.limit);
-  return text;
-}
-
 }  // namespace
 
 Json measure(const Subject& subject, const CommonFlags& flags) {
@@ -235,39 +230,34 @@ Json measure(const Subject& subject, const CommonFlags& flags) {
   return json;
 }
 
-std::vector<Gate> parse_gates(const CommonFlags& flags) {
-  std::vector<Gate> gates;
-  for (const std::string& text : flags.require) gates.push_back(parse_gate(text));
-  return gates;
-}
-
-void write_files(Json& report, const Subject& subject, const CommonFlags& flags, StagedOutputs& outputs) {
-  if (!flags.json && !flags.report) return;
-  add_origin(subject, report);
+std::vector<GateResult> finish_report(Json& report, const Subject& subject, const CommonFlags& flags,
+                                      const std::vector<Gate>& gates, StagedOutputs& outputs) {
+  if (flags.json || flags.report || has_gate_on(gates, {"inputs", "size", "reference"})) add_origin(subject, report);
   ElementFigures elements;
-  if (subject.surface != nullptr) {
+  if (subject.surface != nullptr &&
+      (flags.json || flags.report || has_gate_on(gates, {"histograms", "worst_elements"}))) {
     elements = measure_elements(subject);
     add_to_json(elements, subject, report);
   }
+  std::vector<GateResult> results = judge(gates, subject, report);
   if (flags.json) outputs.add_json(report, *flags.json);
+  if (flags.junit) outputs.add_junit(junit_text(report, subject.output.value_or(flags.input).string()), *flags.junit);
   if (flags.report) outputs.add_report(report, page_of(report, elements, subject), flags);
+  return results;
 }
 
 bool report_figures(const Subject& subject, const CommonFlags& flags, const std::vector<Gate>& gates,
                     ProgressDisplay& display, StagedOutputs& outputs) {
   Json report = measure(subject, flags);
-  const std::vector<GateResult> results = evaluate_gates(gates, report);
-  report["gates"] = scan2fea::to_json(results);
-  write_files(report, subject, flags, outputs);
-  // With the JSON on stdout the table goes where messages go.
+  const std::vector<GateResult> results = finish_report(report, subject, flags, gates, outputs);
+  // With the JSON or the XML on stdout the table goes where messages go.
   if (!flags.quiet) {
-    if (flags.json == "-")
+    if (flags.json == "-" || flags.junit == "-")
       display.line(to_table(report));
     else
       write_to_stdout(to_table(report));
   }
-  for (const GateResult& result : results)
-    if (!result.pass) std::fprintf(stderr, "scan2fea: %s: %s\n", flags.input.c_str(), describe(result).c_str());
+  tell_failures(results, flags.input);
   return all_pass(results);
 }
 

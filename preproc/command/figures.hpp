@@ -10,9 +10,6 @@
 
 namespace scan2fea::command {
 
-// Parses the gates, before any work is done (WrongUsage).
-std::vector<Gate> parse_gates(const CommonFlags& flags);
-
 // What is measured; a reference is what the surface is compared with. `solid_volume` is what `volume_of_solid` of the
 // reference gives, where it is known; it is found where it is needed.
 struct Subject {
@@ -44,13 +41,14 @@ struct Subject {
 // All figures but those of single elements, without gates.
 Json measure(const Subject& subject, const CommonFlags& flags);
 
-// Returns whether all gates pass. Stages --json and --report; says which gates failed.
+// Returns whether all gates pass. Stages --json, --junit and --report; says which gates failed.
 bool report_figures(const Subject& subject, const CommonFlags& flags, const std::vector<Gate>& gates,
                     ProgressDisplay& display, StagedOutputs& outputs);
 
-// Stages --json and --report, if they were asked for, with what the figures do not say: where they come from, and which
-// elements are worst.
-void write_files(Json& report, const Subject& subject, const CommonFlags& flags, StagedOutputs& outputs);
+// Of figures that were measured: adds what they do not say, where they come from and which elements are worst, as far
+// as the gates or a file ask for it, evaluates the gates, and stages --json, --junit and --report.
+std::vector<GateResult> finish_report(Json& report, const Subject& subject, const CommonFlags& flags,
+                                      const std::vector<Gate>& gates, StagedOutputs& outputs);
 
 // "scan.ply: 48485 vertices, 96966 triangles, 12.3 x 4.5 x 6.7 mm": a wrong unit is the commonest mistake.
 std::string describe_input(const SurfaceMesh& mesh, const CommonFlags& flags);

@@ -1,6 +1,7 @@
 #include "preproc/command/flags.hpp"
 
 #include "preproc/command/choice_flag.hpp"
+#include "preproc/command/gate_flags.hpp"
 #include "preproc/mesh/length_unit.hpp"
 
 #include <CLI/Validators.hpp>
@@ -107,10 +108,6 @@ void add_common_flags(CLI::App& command, CommonFlags& flags) {
   command.add_option("--report", flags.report, "Write report.html and report.json into this folder")->type_name("DIR");
   command.add_flag("--report-pdf", flags.report_pdf, "Print the report as report.pdf, too, by Chromium")
       ->needs("--report");
-  command
-      .add_option("--require", flags.require, "Gate, e.g. \"edge_ratio.mean<=1.2\"; exit 1 where it fails (repeatable)")
-      ->type_name("GATE")
-      ->allow_extra_args(false);
   command.add_option("--threads", flags.threads, "Number of threads; 0 for all. The result does not depend on it")
       ->check(CLI::Range(0, 1024))
       ->type_name("N");
@@ -120,6 +117,7 @@ void add_common_flags(CLI::App& command, CommonFlags& flags) {
   command.add_option("--config", flags.config, "Options from a TOML file, under the flags' names")->type_name("FILE");
   add_force_flag(command, flags.force);
   command.add_flag("--quiet", flags.quiet, "No messages but errors");
+  add_gate_flags(command, flags);
 }
 
 void add_output_flag(CLI::App& command, std::filesystem::path& output) {

@@ -22,6 +22,8 @@ struct CommonFlags {
   bool report_pdf = false;                      // report.pdf in it, too
   std::optional<std::filesystem::path> config;
   std::vector<std::string> require;
+  std::vector<std::string> gates;              // names of sets, see limits.hpp
+  std::optional<std::filesystem::path> junit;  // "-" is stdout
   std::optional<std::string> unit;
   std::uint64_t seed = 1;  // of the random points by which distances are measured
   int threads = 0;         // 0: all

@@ -1,6 +1,7 @@
 // scan2fea: from a scanned surface to a finite-element mesh.
 #include "preproc/command/configuration.hpp"
 #include "preproc/command/early_end.hpp"
+#include "preproc/command/gate_flags.hpp"
 #include "preproc/command/restart.hpp"
 #include "preproc/command/sub_commands.hpp"
 #include "preproc/mesh/error.hpp"
@@ -37,6 +38,7 @@ bool is_known(const CLI::App& root, const std::string& command) {
 int run_command(int argc, char** argv) {
   CLI::App root("From a scanned surface to a mesh that a finite-element solver accepts.", "scan2fea");
   root.set_version_flag("--version", library_version);
+  add_gate_list_flag(root);
   root.require_subcommand(1);
   root.footer(
       "Exit codes: 0 done, 1 a gate failed, 2 wrong usage, 3 input unreadable, 4 no valid mesh can be made,\n"

@@ -9,6 +9,7 @@
 #include "preproc/command/early_end.hpp"
 #include "preproc/command/element_fields.hpp"
 #include "preproc/command/figures.hpp"
+#include "preproc/command/gates_asked.hpp"
 #include "preproc/command/input_warnings.hpp"
 #include "preproc/command/output_files.hpp"
 #include "preproc/mesh/error.hpp"
@@ -285,7 +286,7 @@ int make_mesh(MakeMeshJob job) {
   const Progress progress = job.time_limit ? limited(display.progress(), job) : display.progress();
   require_known_format(job);
   require_writable_outputs(job);
-  const std::vector<Gate> gates = parse_gates(job.common);
+  const std::vector<Gate> gates = gates_for(parse_gates(job.common), job.pipeline.tetrahedralize.has_value());
 
   Scan scan = read_input(job);
   if (job.one_body) add_to_one_body(job, scan);

@@ -65,6 +65,13 @@ std::vector<fs::path> inputs_of(const CommonFlags& flags) {
 std::vector<OutputPath> report_outputs(const CommonFlags& flags) {
   std::vector<OutputPath> outputs;
   if (flags.json && *flags.json != "-") outputs.push_back({*flags.json});
+  if (flags.junit && *flags.junit != "-") outputs.push_back({*flags.junit});
+  if (flags.json == "-" && flags.junit == "-")
+    throw WrongUsage({.what = "two outputs are the same file",
+                      .where = "--json and --junit",
+                      .value = "-",
+                      .limit = {},
+                      .advice = "a file for one of them"});
   if (flags.report)
     for (const char* name : {report_json, report_page}) outputs.push_back({*flags.report / name, true});
   if (flags.report && flags.report_pdf) {
@@ -108,6 +115,13 @@ void StagedOutputs::add_json(const nlohmann::json& report, const fs::path& file)
     write_to_stdout(text_of(report));
   else
     add(file, text_of(report));
+}
+
+void StagedOutputs::add_junit(const std::string& text, const fs::path& file) {
+  if (file == "-")
+    write_to_stdout(text);
+  else
+    add(file, text);
 }
 
 void StagedOutputs::add_report(const nlohmann::json& report, const std::string& page, const CommonFlags& flags) {

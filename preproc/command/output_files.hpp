@@ -21,7 +21,8 @@ struct OutputPath {
 // That it reads whatever the sub-command.
 std::vector<std::filesystem::path> inputs_of(const CommonFlags& flags);
 
-// Of --json, unless that is stdout, and --report. Throws IoError where nothing can print the PDF that is asked for.
+// Of --json and --junit, unless that is stdout, and --report. Throws WrongUsage where both are. Throws IoError where
+// nothing can print the PDF that is asked for.
 std::vector<OutputPath> report_outputs(const CommonFlags& flags);
 
 // Throws IoError where an output exists and `force` is off, is no regular file, or cannot be made in its folder; and
@@ -37,8 +38,9 @@ class StagedOutputs {
  public:
   void add(const std::filesystem::path& file, const std::string& text,
            OutputFile::Folder folder = OutputFile::Folder::exists);
-  // To stdout, at once, where the file is "-".
+  // Both to stdout, at once, where the file is "-".
   void add_json(const nlohmann::json& report, const std::filesystem::path& file);
+  void add_junit(const std::string& text, const std::filesystem::path& file);
   // Into the folder that --report names, which is made where it is missing.
   void add_report(const nlohmann::json& report, const std::string& page, const CommonFlags& flags);
   void commit();

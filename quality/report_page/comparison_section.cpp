@@ -1,5 +1,4 @@
 #include "quality/report_page/html.hpp"
-#include "quality/report_page/measure_definitions.hpp"
 #include "quality/report_page/page_sections.hpp"
 
 namespace scan2fea {
@@ -35,7 +34,7 @@ std::string comparison_section(const Json& report) {
   row("Nodes", "volume_mesh.nodes");
   row("Tetrahedra", "volume_mesh.tetrahedra");
   row("Order", "volume_mesh.order");
-  for (const MeasureDefinition& measure : measure_definitions()) row(measure.label, measure.figure);
+  for (const NamedFigure& measure : shown_figures()) row(measure.label, measure.name);
   return "<h2 id=\"comparison\">Both meshes</h2>\n<p>Distances" +
          std::string(find_figure(first, "deviation") != nullptr ? " in this table are from the reference; those" : "") +
          " above and in the view are of the second mesh from the first.</p>\n" + table.text();

@@ -1,47 +1,112 @@
+#include "quality/figure_names.hpp"
+#include "quality/limits.hpp"
 #include "quality/report_page/html.hpp"
-#include "quality/report_page/measure_definitions.hpp"
 #include "quality/report_page/page_sections.hpp"
 
+#include <algorithm>
+#include <array>
 #include <set>
 
 namespace scan2fea {
 namespace {
 
 using namespace html;
-using Unit = MeasureDefinition::Unit;
+using Beyond = MeasureLimit::Beyond;
+
+// What people look for first comes first.
+constexpr auto shown = std::to_array<std::string_view>({
+    "deviation.hausdorff_pct_diagonal",
+    "deviation.rms_pct_diagonal",
+    "deviation.from_mesh.hausdorff_pct_diagonal",
+    "deviation.from_reference.hausdorff_pct_diagonal",
+    "deviation.volume_difference_pct",
+    "deviation.area_difference_pct",
+    "points.largest_distance",
+    "points.rms_distance",
+    "surface.edge_ratio.mean",
+    "surface.edge_ratio.p95",
+    "surface.edge_ratio.max",
+    "surface.min_angle_deg.mean",
+    "surface.min_angle_deg.min",
+    "surface.max_angle_deg",
+    "surface.radius_ratio.mean",
+    "surface.self_intersections",
+    "surface.closed",
+    "surface.manifold",
+    "surface.components",
+    "surface.genus",
+    "surface.volume",
+    "surface.area",
+    "volume_mesh.scaled_jacobian.min",
+    "volume_mesh.scaled_jacobian.mean",
+    "volume_mesh.min_dihedral_deg",
+    "volume_mesh.max_dihedral_deg",
+    "volume_mesh.min_face_angle_deg",
+    "volume_mesh.max_face_angle_deg",
+    "volume_mesh.edge_ratio",
+    "volume_mesh.radius_edge_ratio",
+    "volume_mesh.inverted",
+    "volume_mesh.volume",
+});
 
 // Beside a share of the diagonal, what it is in model units.
-std::string in_model_units(const Json& report, const MeasureDefinition& measure, const Json& value) {
+std::string in_model_units(const Json& report, const NamedFigure& measure, const Json& value) {
   const Json* diagonal = find_figure(report, "reference.diagonal");
-  if (measure.unit != Unit::percent_of_diagonal || diagonal == nullptr || !value.is_number()) return {};
+  if (measure.unit != "% of the diagonal" || diagonal == nullptr || !value.is_number()) return {};
   return number(value.get<double>() / 100 * diagonal->get<double>(), 4) + " " + unit_text(report);
 }
 
-std::string unit_of(const Json& report, Unit unit) {
-  switch (unit) {
-    case Unit::none:
-      return {};
-    case Unit::degrees:
-      return "\u00b0";
-    case Unit::percent:
-      return "\u00a0%";
-    case Unit::percent_of_diagonal:
-      return "\u00a0% of the diagonal";
-    case Unit::model:
-      return "\u00a0" + unit_text(report);
-    case Unit::model_squared:
-      return "\u00a0" + unit_text(report, 2);
-    case Unit::model_cubed:
-      return "\u00a0" + unit_text(report, 3);
+std::string unit_of(const Json& report, const std::string& unit) {
+  if (unit.empty()) return {};
+  if (unit == "degrees") return "\u00b0";
+  const int power = unit == "length" ? 1 : unit == "area" ? 2 : unit == "volume" ? 3 : 0;
+  return "\u00a0" + (power > 0 ? unit_text(report, power) : escaped(unit));
+}
+
+// "above 165 warning": where a mesh is not as the limit wants it.
+std::string phrase(const MeasureLimit& limit) {
+  const std::string value = number(limit.value, 6);
+  const bool is_from_above = limit.comparison == Comparison::at_most || limit.comparison == Comparison::below;
+  if (limit.beyond == Beyond::is_unusual) return (is_from_above ? "up to " : "from ") + value + " acceptable";
+  if (limit.beyond == Beyond::worse_than_paper) return value + " reached by the paper";
+  const std::string what = limit.beyond == Beyond::warning ? " warning" : " error";
+  switch (limit.comparison) {
+    case Comparison::at_most:
+      return "above " + value + what;
+    case Comparison::at_least:
+      return "below " + value + what;
+    case Comparison::below:
+      return value + " or more" + what;
+    case Comparison::above:
+      return value + " or less" + what;
+    case Comparison::equal:
+      break;
   }
-  return {};
+  return "other than " + value + what;
+}
+
+// "above 165 warning [A, O], above 177 error [O]"; notes the sources.
+std::string limits_of(std::string_view figure, std::set<char>& used) {
+  std::vector<std::pair<std::string, std::string>> phrases;  // with the letters of their sources
+  for (const MeasureLimit& limit : measure_limits()) {
+    if (limit.figure != figure) continue;
+    used.insert(limit.source);
+    const auto same = std::ranges::find(phrases, phrase(limit), &std::pair<std::string, std::string>::first);
+    if (same == phrases.end())
+      phrases.emplace_back(phrase(limit), std::string(1, limit.source));
+    else if (same->second.find(limit.source) == std::string::npos)
+      same->second += std::string(", ") + limit.source;
+  }
+  std::string text;
+  for (const auto& [words, letters] : phrases) text += (text.empty() ? "" : ", ") + words + " [" + letters + "]";
+  return text;
 }
 
 std::string sources(const std::set<char>& used) {
   std::string list;
   for (const LimitSource& source : limit_sources())
-    if (used.contains(source.letter[0]))
-      list += "<li><b>[" + std::string(source.letter) + "]</b> " + std::string(source.text) + "</li>\n";
+    if (used.contains(source.letter))
+      list += std::string("<li><b>[") + source.letter + "]</b> " + std::string(source.text) + "</li>\n";
   return list.empty() ? list : "<ul class=\"sources\">\n" + list + "</ul>\n";
 }
 
@@ -51,18 +116,22 @@ std::string shape_cells(const Json& element, const char* key) {
 
 }  // namespace
 
+std::vector<NamedFigure> shown_figures() {
+  const std::vector<NamedFigure> all = all_figures();
+  std::vector<NamedFigure> figures;
+  for (const std::string_view name : shown) figures.push_back(*std::ranges::find(all, name, &NamedFigure::name));
+  return figures;
+}
+
 std::string measures_section(const Json& report) {
   Table table("", {"Measure", "#Value", "#In model units", "Meaning", "Limits"});
   std::set<char> used;
-  for (const MeasureDefinition& measure : measure_definitions()) {
-    const Json* value = find_figure(report, measure.figure);
+  for (const NamedFigure& measure : shown_figures()) {
+    const Json* value = find_figure(report, measure.name);
     if (value == nullptr) continue;
-    table.row({escaped(measure.label), figure(report, measure.figure, 5) + unit_of(report, measure.unit),
-               in_model_units(report, measure, *value), escaped(measure.definition), escaped(measure.limits)});
-    for (std::size_t i = 0; i < measure.limits.size(); ++i)
-      if (measure.limits[i] >= 'A' && measure.limits[i] <= 'Z' &&
-          (measure.limits[i - 1] == '[' || measure.limits[i - 1] == ' '))
-        used.insert(measure.limits[i]);
+    table.row({escaped(measure.label), figure(report, measure.name, 5) + unit_of(report, measure.unit),
+               in_model_units(report, measure, *value), escaped(measure.meaning),
+               escaped(limits_of(measure.name, used))});
   }
   return "<h2 id=\"measures\">Measures</h2>\n<div class=\"measures\">" + table.text() + "</div>" + sources(used);
 }

@@ -1,25 +1,6 @@
 #include "quality/report_page/page_parts.hpp"
 
-// The assembler takes the files in as they are, in no time however large they are.
-#define SCAN2FEA_TAKE_IN(name, file) \
-  asm(".section .rodata\n"           \
-      ".global scan2fea_" #name      \
-      "\n"                           \
-      ".hidden scan2fea_" #name      \
-      "\n"                           \
-      "scan2fea_" #name              \
-      ":\n"                          \
-      ".incbin \"" file              \
-      "\"\n"                         \
-      ".global scan2fea_" #name      \
-      "_end\n"                       \
-      ".hidden scan2fea_" #name      \
-      "_end\n"                       \
-      "scan2fea_" #name              \
-      "_end:\n"                      \
-      ".byte 0\n"                    \
-      ".previous\n");                \
-  extern "C" const char scan2fea_##name[], scan2fea_##name##_end[]
+#include "quality/taken_in.hpp"
 
 SCAN2FEA_TAKE_IN(page_template, SCAN2FEA_PAGE_TEMPLATE);
 SCAN2FEA_TAKE_IN(page_style, SCAN2FEA_PAGE_STYLE);

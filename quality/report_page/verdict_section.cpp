@@ -1,7 +1,7 @@
 #include "quality/report_page/html.hpp"
 #include "quality/report_page/page_sections.hpp"
 
-#include <cmath>
+#include <set>
 
 namespace scan2fea {
 namespace {
@@ -119,16 +119,29 @@ std::string size_fact(const Json& report) {
   return fact("Surface", figure(report, "surface.faces") + " triangles", rest);
 }
 
+std::string where_of(const Json& gate) {
+  if (!gate.contains("place")) return gate.value("reason", "");
+  return (gate.contains("element") ? "element " + gate["element"].dump() + " at " : std::string()) +
+         place(gate["place"]) + " " + show_button("place", "Show", gate["place"].dump());
+}
+
 std::string gate_table(const Json& report) {
-  Table table("Gates", {"Result", "Figure", "#Value", "", "#Limit"});
+  Table table("Gates", {"Result", "Figure", "#Value", "", "#Limit", "Where", "From"});
+  std::set<std::string> sources;
   for (const Json& gate : report["gates"]) {
     const bool pass = gate["pass"].get<bool>();
+    const std::string set = gate.value("set", "");
+    if (gate.contains("source"))
+      sources.insert("<li><b>" + escaped(set) + "</b> " + escaped(gate["source"].get<std::string>()) + "</li>\n");
     table.row({pass ? "<strong class=\"good\">passed</strong>" : "<strong class=\"bad\">failed</strong>",
                "<code>" + escaped(gate["name"].get<std::string>()) + "</code>",
                "<data value=\"" + gate["value"].dump() + "\">" + number(gate["value"], 6) + "</data>",
-               escaped(gate["operator"].get<std::string>()), number(gate["limit"], 6)});
+               escaped(gate["operator"].get<std::string>()), number(gate["limit"], 6), where_of(gate),
+               set.empty() ? "asked for" : "<code>" + escaped(set) + "</code>"});
   }
-  return table.text();
+  std::string list;
+  for (const std::string& source : sources) list += source;
+  return table.text() + (list.empty() ? list : "<ul class=\"sources\">\n" + list + "</ul>\n");
 }
 
 }  // namespace

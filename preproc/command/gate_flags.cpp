@@ -1,0 +1,67 @@
+#include "preproc/command/gate_flags.hpp"
+
+#include "preproc/command/output_files.hpp"
+#include "quality/gate_list.hpp"
+#include "quality/limits.hpp"
+
+#include <CLI/Error.hpp>
+#include <CLI/Validators.hpp>
+
+namespace scan2fea::command {
+namespace {
+
+constexpr const char* list_help = "List all figures that a gate can name, and the sets of --gates, and end";
+
+std::vector<std::string> names_of_sets() {
+  return {gate_sets().begin(), gate_sets().end()};
+}
+
+void list_gates(const CommonFlags& flags) {
+  if (!flags.json) {
+    write_to_stdout(gate_list_table());
+    return;
+  }
+  if (*flags.json != "-") require_writable({{*flags.json}}, {}, flags.force);
+  StagedOutputs outputs;
+  outputs.add_json(gate_list_json(), *flags.json);
+  outputs.commit();
+}
+
+}  // namespace
+
+void add_gate_flags(CLI::App& command, CommonFlags& flags) {
+  command
+      .add_option("--require", flags.require, "Gate, e.g. \"edge_ratio.mean<=1.2\"; exit 1 where it fails (repeatable)")
+      ->type_name("GATE")
+      ->allow_extra_args(false);
+  command
+      .add_option("--gates", flags.gates,
+                  "A solver's own limits, or those of the paper, as gates; --require replaces them (repeatable)")
+      ->check(CLI::IsMember(names_of_sets(), CLI::ignore_case))
+      ->type_name("SET")
+      ->allow_extra_args(false);
+  command.add_option("--junit", flags.junit, "Write the gates as JUnit XML, a test case each (- for stdout)")
+      ->type_name("FILE");
+  command
+      .add_flag_callback(
+          "--list-gates",
+          [&flags] {
+            list_gates(flags);
+            throw CLI::Success();
+          },
+          std::string(list_help) + "; with --json as JSON")
+      ->configurable(false);
+}
+
+void add_gate_list_flag(CLI::App& root) {
+  root.add_flag_callback(
+      "--list-gates",
+      [&root] {
+        if (root.remaining_size() > 0) throw CLI::ExtrasError("scan2fea --list-gates", root.remaining());
+        write_to_stdout(gate_list_table());
+        throw CLI::Success();
+      },
+      list_help);
+}
+
+}  // namespace scan2fea::command
