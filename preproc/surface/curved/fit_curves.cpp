@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace scan2fea {
 namespace {
@@ -46,6 +47,26 @@ void place_lines(CurvedSurface& surface, const FeatureNet& net, bool keep_corner
     const double length = (surface.corners.vertices[piece.from] - surface.corners.vertices[piece.to]).norm();
     directions[surface.corners.vertices.size() + e].setZero();
     if ((on_line - surface.mid[e]).norm() <= largest_bend * length) surface.mid[e] = on_line;
+  }
+}
+
+// Nodes in planes stay in them, as the corners of the straight surface are.
+void place_planes(const SurfaceMesh& straight, const FeatureNet& net, const PlanesOfScan& planes,
+                  CurvedSurface& surface, std::vector<Vec3>& directions) {
+  if (planes.empty()) return;
+  const std::vector<PlaneNumbers> of_corner = planes.planes_of(straight, net);
+  for (std::size_t v = 0; v < of_corner.size(); ++v) {
+    if (of_corner[v].empty()) continue;
+    surface.corners.vertices[v] = straight.vertices[v];
+    directions[v].setZero();
+  }
+  for (std::size_t e = 0; e < surface.edges.size(); ++e) {
+    const auto& [a, b] = surface.edges[e];
+    PlaneNumbers both;
+    std::ranges::set_intersection(of_corner[a], of_corner[b], std::back_inserter(both));
+    if (both.empty()) continue;
+    surface.mid[e] += planes.step_onto(both, surface.mid[e]);
+    directions[of_corner.size() + e].setZero();
   }
 }
 
@@ -124,11 +145,12 @@ std::size_t settle(const CurvedSurface& straight, const VolumeKeeper& keep_volum
 }
 
 FittedCurves fit_curves(const SurfaceMesh& surface, const FeatureNet& net, const ReferenceSurface& scan,
-                        bool keep_corners, const Progress& progress) {
+                        const PlanesOfScan& planes, bool keep_corners, const Progress& progress) {
   const CurvedSurface straight(surface);
   FittedCurves fitted{.surface = straight, .directions = {}, .volumes = volumes_of_components(surface)};
   fitted.directions = directions_of(fitted.surface, keep_corners);
   place_lines(fitted.surface, net, keep_corners, fitted.directions);
+  place_planes(surface, net, planes, fitted.surface, fitted.directions);
   fit_nodes(fitted.surface, fitted.directions, net, scan, progress);
   const auto keep_volume = [&](const std::vector<Vec3>& directions, CurvedSurface& shifted) {
     keep_curved_volume(shifted, fitted.volumes, directions);

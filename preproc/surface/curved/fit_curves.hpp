@@ -9,6 +9,7 @@
 #include "preproc/mesh/progress.hpp"
 #include "preproc/surface/curved/curved_surface.hpp"
 #include "preproc/surface/features/feature_net.hpp"
+#include "preproc/surface/features/planes_of_scan.hpp"
 #include "preproc/surface/fit/reference_surface.hpp"
 
 #include <cstddef>
@@ -26,12 +27,12 @@ struct FittedCurves {
 };
 
 // `surface` is a fitted surface of the scan with its net. Connectivity stays, and so does the volume of each component.
-// Nodes on lines of the net lie on the scan's lines. `keep_corners`: only nodes of edges move. No two triangles meet
-// that the straight ones kept apart, each taken as four plane ones, and no triangle of corners is below 30 degrees that
-// was not so before. Throws
-// Cancelled and OutOfTime. Deterministic for any number of threads. About 40 us a triangle.
+// Nodes on lines of the net lie on the scan's lines, and those in planes of the scan in these. `keep_corners`: only
+// nodes of edges move. No two triangles meet that the straight ones kept apart, each taken as four plane ones, and no
+// triangle of corners is below 30 degrees that was not so before. Throws Cancelled and OutOfTime. Deterministic for any
+// number of threads. About 40 us a triangle.
 FittedCurves fit_curves(const SurfaceMesh& surface, const FeatureNet& net, const ReferenceSurface& scan,
-                        bool keep_corners = false, const Progress& progress = {});
+                        const PlanesOfScan& planes, bool keep_corners = false, const Progress& progress = {});
 
 // The same of a piece of surface between borders, in place: nodes that are held stay where they are given, the others
 // of its lines go to the scan's, and the rest is fitted. Returns the directions. Not guaranteed: that nothing meets.

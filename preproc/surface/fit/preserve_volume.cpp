@@ -125,9 +125,15 @@ double shift_to_volume(SurfaceMesh& mesh, const std::vector<std::uint32_t>& face
 
 // A part's plane faces stay plane as long as something else can give the volume: vertices in them get no direction,
 // unless that leaves too little of the component's area to move.
-void hold_planes(const SurfaceMesh& mesh, const Parts& parts, std::vector<Vec3>& directions) {
-  const std::vector<Vec3> all = directions;
-  const std::vector<bool> is_plane = vertices_in_planes(mesh);
+void hold_planes(const SurfaceMesh& mesh, const Parts& parts, const std::vector<Vec3>& outwards,
+                 std::vector<Vec3>& directions) {
+  std::vector<Vec3> all = directions;
+  std::vector<bool> is_plane = vertices_in_planes(mesh);
+  for (std::size_t v = 0; v < outwards.size(); ++v) {
+    if (outwards[v].isZero()) continue;
+    all[v] = outwards[v];
+    is_plane[v] = true;
+  }
   for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v)
     if (is_plane[v]) directions[v].setZero();
   for (const std::vector<std::uint32_t>& faces : parts.faces) {
@@ -157,7 +163,8 @@ std::vector<bool> vertices_in_planes(const SurfaceMesh& mesh) {
   return is_plane;
 }
 
-VolumeShift preserve_volume(SurfaceMesh& mesh, const SurfaceMesh& like, const VertexConstraints& constraints) {
+VolumeShift preserve_volume(SurfaceMesh& mesh, const SurfaceMesh& like, const VertexConstraints& constraints,
+                            const std::vector<Vec3>& outwards) {
   if (mesh.triangles.empty() || like.triangles.empty()) return {};
   if (!encloses_volume(mesh) || !encloses_volume(like)) {
     throw NotMeshable({.what = "no volume to keep",
@@ -181,7 +188,7 @@ VolumeShift preserve_volume(SurfaceMesh& mesh, const SurfaceMesh& like, const Ve
   for (std::size_t v = 0; v < constraints.size(); ++v) {
     if (constraints[v] == VertexConstraint::fixed) directions[v].setZero();
   }
-  hold_planes(mesh, parts, directions);
+  hold_planes(mesh, parts, outwards, directions);
 
   VolumeShift result{0, parts.faces.size()};
   for (std::size_t c = 0; c < parts.faces.size(); ++c) {
@@ -192,13 +199,14 @@ VolumeShift preserve_volume(SurfaceMesh& mesh, const SurfaceMesh& like, const Ve
   return result;
 }
 
-bool preserve_volume_clear(SurfaceMesh& mesh, const SurfaceMesh& like, VertexConstraints constraints) {
+bool preserve_volume_clear(SurfaceMesh& mesh, const SurfaceMesh& like, VertexConstraints constraints,
+                           const std::vector<Vec3>& outwards) {
   constexpr int trials = 10;
   constraints.resize(mesh.vertices.size(), VertexConstraint::free);
   for (int trial = 0; trial < trials; ++trial) {
     SurfaceMesh shifted = mesh;
     try {
-      preserve_volume(shifted, like, constraints);
+      preserve_volume(shifted, like, constraints, outwards);
     } catch (const NotMeshable&) {
       return false;
     }

@@ -28,16 +28,19 @@ struct VolumeShift {
 // component encloses the volume of the component of `like` that it stands for (the one whose vertices are nearest), to
 // the rounding of the coordinates. Where the components cannot be paired one to one, all are shifted by one distance to
 // the volume of the whole. Vertices of plane faces stay where they are if what is curved has a twentieth of the
-// component's area or more.
+// component's area or more; `outwards` tells of those that are held to planes (its move when all planes move outwards by
+// one, else zero; or empty), which with too little else move by that.
 // Throws NotMeshable for surfaces that are not closed and oriented, where the shift would exceed a mean edge length
 // (the two then do not stand for the same body), and where no shift reaches the volume. Near linear in the meshes. Not
 // guaranteed: that the shift makes no triangles cross; it is far below an edge length for a fitted surface, but see
 // mend_surface.hpp.
-VolumeShift preserve_volume(SurfaceMesh& mesh, const SurfaceMesh& like, const VertexConstraints& constraints = {});
+VolumeShift preserve_volume(SurfaceMesh& mesh, const SurfaceMesh& like, const VertexConstraints& constraints = {},
+                            const std::vector<Vec3>& outwards = {});
 
 // Gives each component of the surface the volume of `like` (see preserve_volume), by moving only vertices that then
 // meet nothing. False, and the mesh as it was, where that fails. Precondition: no self-intersections; it has none
 // afterwards either.
-bool preserve_volume_clear(SurfaceMesh& mesh, const SurfaceMesh& like, VertexConstraints constraints = {});
+bool preserve_volume_clear(SurfaceMesh& mesh, const SurfaceMesh& like, VertexConstraints constraints = {},
+                           const std::vector<Vec3>& outwards = {});
 
 }  // namespace scan2fea

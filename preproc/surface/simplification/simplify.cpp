@@ -224,7 +224,8 @@ Simplification::Simplification(const SurfaceMesh& scan, const SimplifyOptions& o
   }
   if (!options.limits.empty())
     wanted.longest = longest_edges(prepared->mesh, options.limits, longest_edge_of_part * edge);
-  state.search.emplace(prepared, std::move(fine_creases), std::move(wanted), state.options);
+  PlanesOfScan planes(scan, features.noise, edge);
+  state.search.emplace(prepared, std::move(fine_creases), std::move(planes), std::move(wanted), state.options);
 }
 
 Simplification::~Simplification() = default;
@@ -256,7 +257,8 @@ double Simplification::way_off() const {
 
 FittedCurves Simplification::curved(const SimplifyResult& result, const SurfaceMesh& surface, bool keep_corners,
                                     const Progress& progress) const {
-  return fit_curves(surface, result.on_scan->net, result.on_scan->scan->reference(), keep_corners, progress);
+  return fit_curves(surface, result.on_scan->net, result.on_scan->scan->reference(), state_->search->planes(),
+                    keep_corners, progress);
 }
 
 SimplifyResult simplify(SurfaceMesh& mesh, const SimplifyOptions& options, const Progress& progress) {

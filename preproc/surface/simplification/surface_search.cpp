@@ -11,6 +11,7 @@
 #include "preproc/surface/sizing/shape_lengths.hpp"
 #include "preproc/surface/sizing/size_limits.hpp"
 #include "quality/triangle_measures.hpp"
+#include "quality/triangle_tree.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -75,6 +76,22 @@ double share_beyond(const OneSidedDeviation& side, double distance) {
          static_cast<double>(side.upper.size());
 }
 
+// Where a surface is farther from its reference, or that from it.
+std::vector<std::uint32_t> vertices_beyond(const SurfaceMesh& mesh, const DeviationBound& bound, double distance) {
+  std::vector<Vec3> places;
+  for (const OneSidedDeviation* side : {&bound.to_reference, &bound.to_mesh})
+    for (std::size_t f = 0; f < side->upper.size(); ++f)
+      if (side->upper[f] > distance) places.push_back(side->farthest[f]);
+  std::vector<std::uint32_t> vertices;
+  if (places.empty()) return vertices;
+  const TriangleTree tree(mesh);
+  for (const Vec3& p : places) {
+    const Triangle& t = mesh.triangles[tree.closest(p).triangle];
+    vertices.insert(vertices.end(), t.begin(), t.end());
+  }
+  return vertices;
+}
+
 // What the edge ratio exceeds 1 by is taken to go with the square of the edges; a guess may be wrong.
 double shortening_for_shape(double mean_edge_ratio) {
   constexpr double aim = 0.01;  // below the worst
@@ -93,11 +110,12 @@ std::string count(double triangles) {
 
 }  // namespace
 
-SurfaceSearch::SurfaceSearch(PreparedScanPointer scan, FineCreases fine_creases, WantedSurface wanted,
-                             const SimplifyOptions& options)
+SurfaceSearch::SurfaceSearch(PreparedScanPointer scan, FineCreases fine_creases, PlanesOfScan planes,
+                             WantedSurface wanted, const SimplifyOptions& options)
     : first_scan_(scan),
       scan_(std::move(scan)),
       fine_creases_(std::move(fine_creases)),
+      planes_(std::move(planes)),
       wanted_(std::move(wanted)),
       options_(options) {
   sizing_.triangles = wanted_.triangles;
@@ -159,6 +177,7 @@ Candidate SurfaceSearch::run(const Progress& progress) {
                        .limit = {},
                        .advice = "a larger --deviation, or --faces"});
   most_work_ = std::max(most_work_, work_ + work_for_small);
+  put_on_planes(best);
   return (last_ = std::move(best)).candidate;
 }
 
@@ -177,6 +196,7 @@ std::optional<Candidate> SurfaceSearch::run_again(std::span<const ShorterEdges> 
       if (made.failed()) return {};
     }
     if (!holds(made)) mend_shape(made, progress);
+    put_on_planes(made);
     // What was asked for first comes before what is asked for now.
     if (holds(last_) && !holds(made)) return {};
     last_ = std::move(made);
@@ -193,6 +213,7 @@ std::optional<Candidate> SurfaceSearch::run_moved(const std::vector<Vec3>& place
   move_clear(mesh, places);
   if (scan.is_closed()) preserve_volume_clear(mesh, scan.mesh, held_lines(moved.candidate.net, mesh.vertices.size()));
   if (wanted_.deviation) note_deviation(moved);
+  put_on_planes(moved);
   if (holds(last_) && !holds(moved)) return {};
   last_ = std::move(moved);
   return last_.candidate;
@@ -259,6 +280,8 @@ SurfaceSearch::Trial SurfaceSearch::judged(Candidate candidate, const Progress& 
   }
   work_ += static_cast<double>(made.candidate.faces());
   if (made.failed()) return made;
+  // A bound is found first, and planes as far as it allows at the end.
+  if (!wanted_.deviation || !wanted_.deviation->required) put_on_planes(made);
   if (wanted_.deviation)
     judge_deviation(made, progress);
   else if (made.candidate.method == SimplifyMethod::lattice)
@@ -330,6 +353,37 @@ void SurfaceSearch::bring_within(Trial& made, double share_to_yield, std::size_t
     if (angle < usable_deg && angle < find_shape_defects(made.candidate, usable_deg).sharpest()) return;
   }
   made = std::move(within);
+}
+
+// What is plane on the scan is plane; the volume then comes from what is not, or from the planes as a whole. Vertices
+// without which a deviation that was reached is lost stay where they are.
+void SurfaceSearch::put_on_planes(Trial& made) const {
+  constexpr int trials = 4;
+  const PreparedScan& scan = *made.candidate.scan;
+  if (planes_.empty() || made.failed() || made.candidate.method != SimplifyMethod::lattice) return;
+  VerticesOnPlanes on_planes = planes_.vertices_of(made.candidate.mesh, made.candidate.net);
+  const bool was_judged = wanted_.deviation && made.candidate.largest_deviation > 0;
+  for (int trial = 0; trial < trials; ++trial) {
+    Trial flat = made;
+    SurfaceMesh& mesh = flat.candidate.mesh;
+    move_clear(mesh, on_planes.places);
+    if (scan.is_closed() &&
+        !preserve_volume_clear(mesh, scan.mesh, held_lines(flat.candidate.net, mesh.vertices.size()),
+                               on_planes.outwards))
+      return;
+    if (was_judged) {
+      const DeviationBound bound = note_deviation(flat);
+      if (holds(made) && !holds(flat)) {
+        for (const std::uint32_t v : vertices_beyond(mesh, bound, wanted_.deviation->distance)) {
+          on_planes.places[v] = made.candidate.mesh.vertices[v];
+          on_planes.outwards[v].setZero();
+        }
+        continue;
+      }
+    }
+    made = std::move(flat);
+    return;
+  }
 }
 
 // Few bad triangles, folds and wedges are mended where they are. No tree of the scan is made for this alone: on a large

@@ -7,6 +7,7 @@
 // without a gain, and of work, which is counted in triangles made, so that the result does not depend on the machine.
 #pragma once
 
+#include "preproc/surface/features/planes_of_scan.hpp"
 #include "preproc/surface/simplification/fine_creases.hpp"
 #include "preproc/surface/simplification/surface_trial.hpp"
 #include "quality/deviation_bound.hpp"
@@ -31,7 +32,7 @@ class SurfaceSearch {
   // known there.
   static constexpr double most_of_scan = 32;
 
-  SurfaceSearch(PreparedScanPointer scan, FineCreases fine_creases, WantedSurface wanted,
+  SurfaceSearch(PreparedScanPointer scan, FineCreases fine_creases, PlanesOfScan planes, WantedSurface wanted,
                 const SimplifyOptions& options);
   SurfaceSearch(const SurfaceSearch&) = delete;
 
@@ -51,6 +52,7 @@ class SurfaceSearch {
   // How far its other vertices may go off it: as far as it is from the scan, where no deviation was asked for.
   double way_off() const { return wanted_.deviation ? 0 : last_.candidate.fit.largest_distance; }
 
+  const PlanesOfScan& planes() const { return planes_; }
   // Where more triangles were asked for than wanted; empty where not.
   const std::string& size_remark() const { return size_remark_; }
   double wanted_triangles() const { return wanted_.triangles; }
@@ -67,6 +69,7 @@ class SurfaceSearch {
   void judge_deviation(Trial& made, const Progress& progress);
   DeviationBound note_deviation(Trial& made) const;
   void bring_within(Trial& made, double share_to_yield, std::size_t in_vain, const Progress& progress) const;
+  void put_on_planes(Trial& made) const;
   void mend_shape(Trial& made, const Progress& progress) const;
   void lower_lengths(const Trial& latest);
   void keep_creases_after(const Trial& latest);
@@ -78,6 +81,7 @@ class SurfaceSearch {
   PreparedScanPointer first_scan_;
   PreparedScanPointer scan_;  // with the creases to ask for
   FineCreases fine_creases_;
+  PlanesOfScan planes_;
   WantedSurface wanted_;
   const SimplifyOptions& options_;
   SizingOptions sizing_;
