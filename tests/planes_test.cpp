@@ -101,7 +101,7 @@ double root_mean_square(const std::vector<double>& values) {
 
 TEST_P(PlanesOfAPart, ArePlaneInTheMesh) {
   const auto [noise, order] = GetParam();
-  constexpr double edge = 1, diagonal = 99;
+  constexpr double edge = 1.2, diagonal = 99;
   const analytic::MachinedPart exact = analytic::machined_part(edge, 0), part = analytic::machined_part(edge, noise);
   PipelineOptions options;
   options.order = order;
