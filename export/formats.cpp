@@ -50,10 +50,10 @@ constexpr Holdings of_viewers{.node_sets = true,
                               .element_sets = true,
                               .unit = true,
                               .second_order = true,
-                              .element_fields = true,
+                              .fields = true,
                               .faces_between = true};
 // Of a surface.
-constexpr Holdings sets_and_unit{.node_sets = true, .face_sets = true, .unit = true};
+constexpr Holdings of_viewers_surface{.node_sets = true, .face_sets = true, .unit = true, .fields = true};
 constexpr Holdings numbered_to(std::uint64_t largest_number, bool own_numbers) {
   return {
       .node_sets = true, .face_sets = true, .unit = true, .largest_number = largest_number, .own_numbers = own_numbers};
@@ -69,7 +69,7 @@ constexpr Holdings of_su2{.face_sets = true, .unit = true};
 constexpr auto formats = std::to_array<FileFormat>({
     {".inp", "Abaqus, CalculiX", all, numbered, write_inp, write_inp, read_inp},
     {".msh", "Gmsh", in_order, numbered_in_order, write_msh, write_msh, read_msh},
-    {".vtu", "VTK", of_viewers, sets_and_unit, write_vtu, write_vtu, read_vtk_xml},
+    {".vtu", "VTK", of_viewers, of_viewers_surface, write_vtu, write_vtu, read_vtk_xml},
     {".bdf", "Nastran", of_nastran, of_nastran_surface, write_bdf, write_bdf, read_bdf},
     {".nas", "Nastran", of_nastran, of_nastran_surface, write_bdf, write_bdf, read_bdf},
     {".unv", "I-DEAS, Salome", all, numbered, write_unv, write_unv, read_unv},
@@ -81,7 +81,7 @@ constexpr auto formats = std::to_array<FileFormat>({
     {".exo", "Exodus II", all, numbered, write_exodus, write_exodus, read_exodus},
     {".e", "Exodus II", all, numbered, write_exodus, write_exodus, read_exodus},
     {".su2", "SU2", of_su2, {}, write_su2, nullptr, read_su2},
-    {".vtp", "VTK", {}, sets_and_unit, nullptr, write_vtp, read_vtk_xml},
+    {".vtp", "VTK", {}, of_viewers_surface, nullptr, write_vtp, read_vtk_xml},
     {".vtk", "VTK, legacy", Holdings{.second_order = true}, Holdings{}, nullptr, nullptr, read_vtk_legacy},
     {".3mf", "3MF", {}, Holdings{.face_sets = true, .unit = true}, nullptr, nullptr, read_3mf},
     {".stl", "STL", {}, only_unit, nullptr, write_plain_surface, read_plain_surface},

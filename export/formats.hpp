@@ -20,7 +20,7 @@ struct Holdings {
   bool element_sets = false;
   bool unit = false;
   bool second_order = false;
-  bool element_fields = false;  // see FileOptions
+  bool fields = false;  // see FileOptions
   bool faces_between = false;   // sets of faces between two bodies; with face_sets
   // Up to which nodes and elements may be numbered (see Numbering); 0 where the format has no numbers of its own.
   std::uint64_t largest_number = 0;

@@ -23,18 +23,21 @@ struct MeshFile {
   // That the file gives, where they are no row from 1 on, and all different; those of nodes only where they are its
   // own.
   FileNumbers numbers;
-  bool has_own_numbers = false;       // whoever made the file chose them; else they follow from the format
-  std::vector<std::string> warnings;  // what of the file is not in `mesh`, one line each
+  bool has_own_numbers = false;                // whoever made the file chose them; else they follow from the format
+  std::vector<std::string> warnings;           // what of the file is not in `mesh`, one line each
+  std::vector<std::string> other_arrays = {};  // values of points and cells that a viewer's file has; they are not read
 
   bool is_volume() const { return std::holds_alternative<TetMesh>(mesh); }
 };
 
 enum class MshVersion { v2_2, v4_1 };
 
-// Of one value for each element of a volume mesh, which viewers show.
-struct ElementField {
+// One value for each element or each node, which viewers show; what has none is NaN.
+struct Field {
   std::string name;
   std::vector<double> values;
+  // Where there are any, values are whole numbers that stand for them, 1 for the first, and 0 for none of them.
+  std::vector<std::string> names = {};
 };
 
 // Numbers of nodes and elements in files that have them, so that several meshes go into one deck: from the first on, in
@@ -63,9 +66,9 @@ struct Numbering {
 struct FileOptions {
   std::string provenance = {};                // where the mesh comes from, one line, for the headers that have room
   MshVersion msh_version = MshVersion::v4_1;  // Gmsh's own default; older readers (Elmer, Code_Aster, SU2) want 2.2
-  std::vector<ElementField> fields = {};      // written by the formats of viewers
-  bool ascii = false;                         // STL and PLY, which are binary otherwise
-  std::string set_prefix = {};                // before the names of all sets, also of NALL, EALL and SALL
+  std::vector<Field> element_fields = {}, node_fields = {};  // written by the formats of viewers
+  bool ascii = false;                                        // STL and PLY, which are binary otherwise
+  std::string set_prefix = {};  // before the names of all sets, also of NALL, EALL and SALL
   Numbering numbers = {};
 };
 

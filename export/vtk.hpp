@@ -14,8 +14,9 @@
 namespace scan2fea {
 
 // One piece of linear (type 10) or quadratic (type 24) tetrahedra, or of triangles; arrays are appended raw,
-// little-endian, 64-bit, so coordinates round-trip exactly and ParaView maps them without parsing. `options.fields`
-// become cell arrays. Throws IoError; an existing file is then untouched. O(n).
+// little-endian, 64-bit, so coordinates round-trip exactly and ParaView maps them without parsing. Fields of the
+// options become arrays of cells and points, the first of each what viewers colour by at first; names that numbers
+// stand for, the strings `NAME_names` of the field data. Throws IoError; an existing file is then untouched. O(n).
 Notes write_vtu(const TetMesh& mesh, const std::filesystem::path& file, const FileOptions& options = {});
 Notes write_vtu(const NamedSurface& surface, const std::filesystem::path& file, const FileOptions& options = {});
 Notes write_vtp(const NamedSurface& surface, const std::filesystem::path& file, const FileOptions& options = {});
@@ -23,8 +24,9 @@ Notes write_vtp(const NamedSurface& surface, const std::filesystem::path& file, 
 // Reads the tetrahedra, or else the triangles, of a file of one piece: ascii, binary (base64) or appended (raw or
 // base64) arrays, also compressed by zlib or LZ4, any integer and floating-point type, both byte orders. Polygons and
 // strips of surfaces are cut into triangles; lines and points are passed over; nodes that no element uses are left out.
-// Throws InvalidInput naming the file and the array or cell: unreadable, not of this format, truncated, no elements,
-// solid cells of another shape, orders mixed, an index out of range.
+// Other arrays than those of sets are named in MeshFile::other_arrays. Throws InvalidInput naming the file and the
+// array or cell: unreadable, not of this format, truncated, no elements, solid cells of another shape, orders mixed, an
+// index out of range.
 MeshFile read_vtk_xml(const std::filesystem::path& file);
 
 // Likewise for the legacy format: POLYDATA and UNSTRUCTURED_GRID, ASCII and binary, versions 2 to 5.1.

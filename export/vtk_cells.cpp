@@ -30,11 +30,13 @@ class Gather {
     raw_.unit = cells_.unit;
     const std::string name = file_.string();
     const bool volume = !raw_.corners.empty();
-    return assemble(
+    MeshFile mesh = assemble(
         raw_, file_, [&](std::size_t n) { return name + ": point " + std::to_string(n); },
         [&](std::size_t e) {
           return name + ": cell " + std::to_string(volume ? cell_of_tetrahedron_[e] : cell_of_triangle_[e]);
         });
+    mesh.other_arrays = cells_.other_arrays;
+    return mesh;
   }
 
  private:

@@ -24,6 +24,7 @@ struct VtkCells {
   std::vector<std::uint64_t> offsets;                                    // where each cell ends in it
   std::vector<std::uint64_t> types;                                      // VTK's, per cell
   std::map<std::string, std::vector<double>> point_arrays, cell_arrays;  // those of sets
+  std::vector<std::string> other_arrays;                                 // names
   std::string unit;
 };
 

@@ -133,6 +133,8 @@ void add_set_arrays(VtkCells& cells, const Grid& grid, std::size_t first_cell, c
       std::vector<double> values = array(grid, key, file, vtk_xml::read_reals);
       values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(std::min(first_cell, values.size())));
       cells.cell_arrays[name] = std::move(values);
+    } else if (section == "PointData" || section == "CellData") {
+      cells.other_arrays.push_back(name);
     }
   }
 }

@@ -1,9 +1,9 @@
 #include "export/set_names.hpp"
 #include "export/text_output.hpp"
-#include "preproc/mesh/unit_comment.hpp"
 #include "export/vtk.hpp"
 #include "export/vtk_cells.hpp"
 #include "preproc/mesh/output_file.hpp"
+#include "preproc/mesh/unit_comment.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -28,6 +28,7 @@ Array array_of(const char* type, std::string name, const std::vector<T>& values,
 struct Section {
   std::string tag;
   std::vector<Array> arrays;
+  std::string shown = {};  // the array that a viewer colours by at first
 };
 
 // Without the characters that XML has a meaning for.
@@ -64,6 +65,20 @@ std::vector<Array> faces_of_cells(const TetMesh& mesh, Notes& notes) {
     arrays.push_back(array_of("UInt8", std::string(vtk_face_set) + names[s], faces));
   }
   return arrays;
+}
+
+Array array_of(const Field& field) {
+  if (field.names.empty()) return array_of("Float64", field.name, field.values);
+  std::vector<std::int32_t> numbers;
+  numbers.reserve(field.values.size());
+  for (const double value : field.values) numbers.push_back(static_cast<std::int32_t>(value));
+  return array_of("Int32", field.name, numbers);
+}
+
+// Of the fields the first is shown.
+Section data_section(const char* tag, std::vector<Array> arrays, const std::vector<Field>& fields) {
+  for (const Field& field : fields) arrays.push_back(array_of(field));
+  return {tag, std::move(arrays), fields.empty() ? "" : fields.front().name};
 }
 
 std::vector<std::int64_t> ends(std::size_t cells, std::int64_t per_cell) {
@@ -107,6 +122,22 @@ void write_comment(TextOutput& out, std::string_view text) {
   out << "<!-- " << line << " -->\n";
 }
 
+// What the numbers of fields stand for, of the whole grid: strings as VTK's readers take them, each byte a number, 0
+// at the end.
+void write_names(TextOutput& out, const FileOptions& options) {
+  for (const auto* fields : {&options.element_fields, &options.node_fields})
+    for (const Field& field : *fields) {
+      if (field.names.empty()) continue;
+      out << "<Array type=\"String\" Name=\"" << field.name << "_names\" NumberOfTuples=\"" << field.names.size()
+          << "\" format=\"ascii\">\n";
+      for (const std::string& name : field.names) {
+        for (const char c : name) out << static_cast<int>(static_cast<unsigned char>(c)) << " ";
+        out << "0\n";
+      }
+      out << "</Array>\n";
+    }
+}
+
 // `counts`: the attributes of the piece.
 void write(const std::string& type, const std::string& counts, const std::vector<Section>& sections,
            const std::string& unit, const std::filesystem::path& file, const FileOptions& options) {
@@ -119,10 +150,14 @@ void write(const std::string& type, const std::string& counts, const std::vector
     if (!unit.empty()) write_comment(out, unit_comment(unit));
     out << "<VTKFile type=\"" << type << "\" version=\"1.0\" byte_order=\""
         << (std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian")
-        << "\" header_type=\"UInt64\">\n<" << type << ">\n<Piece " << counts << ">\n";
+        << "\" header_type=\"UInt64\">\n<" << type << ">\n<FieldData>\n";
+    write_names(out, options);
+    out << "</FieldData>\n<Piece " << counts << ">\n";
     std::uint64_t offset = 0;
     for (const Section& section : sections) {
-      out << "<" << section.tag << ">\n";
+      out << "<" << section.tag;
+      if (!section.shown.empty()) out << " Scalars=\"" << section.shown << "\"";
+      out << ">\n";
       for (const Array& array : section.arrays) {
         out << "<DataArray type=\"" << array.type << "\" Name=\"" << array.name << "\" format=\"appended\" offset=\""
             << offset << "\"";
@@ -154,10 +189,10 @@ Notes write_vtu(const TetMesh& mesh, const std::filesystem::path& file, const Fi
   Notes notes;
   std::vector<Array> of_cells = membership(vtk_element_set, mesh.element_sets, mesh.tetrahedra.size(), notes);
   for (Array& array : faces_of_cells(mesh, notes)) of_cells.push_back(std::move(array));
-  for (const ElementField& field : options.fields) of_cells.push_back(array_of("Float64", field.name, field.values));
   write("UnstructuredGrid", count("NumberOfPoints", mesh.nodes.size()) + count("NumberOfCells", mesh.tetrahedra.size()),
-        {{"PointData", membership(vtk_node_set, mesh.node_sets, mesh.nodes.size(), notes)},
-         {"CellData", std::move(of_cells)},
+        {data_section("PointData", membership(vtk_node_set, mesh.node_sets, mesh.nodes.size(), notes),
+                      options.node_fields),
+         data_section("CellData", std::move(of_cells), options.element_fields),
          {"Points", {coordinates(mesh.nodes)}},
          {"Cells", cells_of(mesh)}},
         mesh.unit, file, options);
@@ -174,8 +209,10 @@ Notes write_surface_as(bool grid, const NamedSurface& surface, const std::filesy
                                  : count("NumberOfVerts", 0) + count("NumberOfLines", 0) + count("NumberOfStrips", 0) +
                                        count("NumberOfPolys", mesh.triangles.size());
   write(grid ? "UnstructuredGrid" : "PolyData", count("NumberOfPoints", mesh.vertices.size()) + cells,
-        {{"PointData", membership(vtk_node_set, surface.node_sets, mesh.vertices.size(), notes)},
-         {"CellData", membership(vtk_face_set, surface.face_sets, mesh.triangles.size(), notes)},
+        {data_section("PointData", membership(vtk_node_set, surface.node_sets, mesh.vertices.size(), notes),
+                      options.node_fields),
+         data_section("CellData", membership(vtk_face_set, surface.face_sets, mesh.triangles.size(), notes),
+                      options.element_fields),
          {"Points", {coordinates(mesh.vertices)}},
          {grid ? "Cells" : "Polys", cells_of(mesh, grid)}},
         surface.unit, file, options);

@@ -118,7 +118,11 @@ class Reader {
                          "another name for this file");
       add_elements(facets_file, grid_of_facets);
     }
-    return assemble(raw_, path_);
+    MeshFile mesh = assemble(raw_, path_);
+    for (const Attribute& attribute : grid.attributes)
+      if (!is_of_tags(attribute.name) && !attribute.name.starts_with(vtk_node_set))
+        mesh.other_arrays.push_back(attribute.name);
+    return mesh;
   }
 
  private:

@@ -1,9 +1,9 @@
 #include "export/set_names.hpp"
 #include "export/text_output.hpp"
-#include "preproc/mesh/unit_comment.hpp"
 #include "export/vtk_cells.hpp"
 #include "export/xdmf.hpp"
 #include "preproc/mesh/output_file.hpp"
+#include "preproc/mesh/unit_comment.hpp"
 
 #include <algorithm>
 #include <span>
@@ -68,6 +68,14 @@ void write_attribute(TextOutput& out, std::string_view name, const char* centre,
   out << "</Attribute>\n";
 }
 
+// Numbers alone: names are in the tags.
+void write_fields(TextOutput& out, std::span<const Field> fields, const char* centre) {
+  for (const Field& field : fields)
+    if (field.names.empty())
+      write_attribute(out, field.name, centre, "Float", field.values.size(),
+                      [&](std::size_t i) { return field.values[i]; });
+}
+
 void write_topology_begin(TextOutput& out, const char* type, std::size_t elements, std::size_t nodes) {
   out << "<Topology TopologyType=\"" << type << "\" NumberOfElements=\"" << elements << "\" NodesPerElement=\"" << nodes
       << "\">\n";
@@ -123,9 +131,8 @@ Notes write_xdmf(const TetMesh& mesh, const std::filesystem::path& file, const F
       write_attribute(out, std::string(vtk_node_set) + nodes[s], "Node", "Int", mesh.nodes.size(),
                       [&](std::size_t n) { return is_member[n]; });
     }
-    for (const ElementField& field : options.fields)
-      write_attribute(out, field.name, "Cell", "Float", field.values.size(),
-                      [&](std::size_t t) { return field.values[t]; });
+    write_fields(out, options.element_fields, "Cell");
+    write_fields(out, options.node_fields, "Node");
     end(out);
     begin(facets, "facet_tags", mesh, options);
     write_names(facets, facet_parts, faces, 2);

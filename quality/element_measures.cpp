@@ -16,14 +16,15 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 void measure_faces(ElementMeasures& measures) {
   const SurfaceMesh& mesh = measures.faces;
-  measures.face_edge_ratio.assign(mesh.triangles.size(), none);
-  measures.face_min_angle_deg.assign(mesh.triangles.size(), none);
+  for (auto* values : {&measures.face_edge_ratio, &measures.face_min_angle_deg, &measures.face_max_angle_deg})
+    values->assign(mesh.triangles.size(), none);
   tbb::parallel_for(std::size_t{0}, mesh.triangles.size(), [&](std::size_t f) {
     const auto& [a, b, c] = mesh.triangles[f];
     const auto shape = measure_triangle(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]);
     if (!shape) return;
     measures.face_edge_ratio[f] = shape->edge_ratio;
     measures.face_min_angle_deg[f] = shape->min_angle_deg;
+    measures.face_max_angle_deg[f] = shape->max_angle_deg;
   });
 }
 

@@ -13,7 +13,7 @@ namespace scan2fea {
 struct ElementMeasures {
   // The surface; of a volume mesh all its nodes, and its outer boundary in the order of TetMesh::boundary.
   SurfaceMesh faces;
-  std::vector<double> face_edge_ratio, face_min_angle_deg;
+  std::vector<double> face_edge_ratio, face_min_angle_deg, face_max_angle_deg;
   // Per tetrahedron; none of a surface. See TetShape.
   std::vector<double> scaled_jacobian, min_dihedral_deg, max_dihedral_deg, edge_ratio;
   // Per face, and per triangle of the reference; see signed_deviation.hpp. None without a reference.

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 namespace scan2fea {
@@ -50,7 +51,35 @@ constexpr double third = 1.0 / 3;
 constexpr std::array<std::array<double, 3>, 7> places{
     {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.5, 0.5, 0}, {0, 0.5, 0.5}, {0.5, 0, 0.5}, {third, third, third}}};
 
+// `normals`: of any length; 0 for nodes that are passed over.
+std::vector<double> deviations_along(const std::vector<Vec3>& nodes, const std::vector<Vec3>& normals,
+                                     const TriangleTree& reference) {
+  std::vector<double> deviations(nodes.size(), std::numeric_limits<double>::quiet_NaN());
+  for_each_near_the_last(nodes.size(), reference, [&](std::size_t n, SignedDistances& distances) {
+    if (!normals[n].isZero(0)) deviations[n] = distances.from(nodes[n], normals[n]);
+  });
+  return deviations;
+}
+
 }  // namespace
+
+std::vector<double> signed_deviations_of_nodes(const SurfaceMesh& mesh, const TriangleTree& reference) {
+  std::vector<Vec3> normals(mesh.vertices.size(), Vec3::Zero());
+  for (const Triangle& t : mesh.triangles)
+    for (const std::uint32_t v : t) normals[v] += area_vector(mesh, t);
+  return deviations_along(mesh.vertices, normals, reference);
+}
+
+std::vector<double> signed_deviations_of_nodes(const TetMesh& mesh, const TriangleTree& reference) {
+  std::vector<Vec3> normals(mesh.nodes.size(), Vec3::Zero());
+  for (std::size_t f = 0; f < mesh.outer_faces(); ++f) {
+    const Vec3 area = face_vector_area(mesh, mesh.boundary[f]);
+    for (const std::uint32_t n : boundary_triangle(mesh, mesh.boundary[f])) normals[n] += area;
+    if (mesh.order() == 2)
+      for (const std::uint32_t n : boundary_mid_edge_nodes(mesh, mesh.boundary[f])) normals[n] += area;
+  }
+  return deviations_along(mesh.nodes, normals, reference);
+}
 
 std::vector<double> signed_deviations(const SurfaceMesh& mesh, const TriangleTree& reference) {
   std::vector<double> deviations(mesh.triangles.size());

@@ -1,12 +1,12 @@
 // The page's units, and the page as a text; tests/report_in_browser.py uses it as a reader does.
 #include "quality/report_page/report_page.hpp"
 
-#include "quality/report_page/colour_maps.hpp"
-#include "quality/report_page/deflate.hpp"
+#include "quality/picture/colour_maps.hpp"
+#include "quality/picture/deflate.hpp"
 #include "quality/report_page/html.hpp"
 #include "quality/report_page/packed_arrays.hpp"
 #include "quality/report_page/page_sections.hpp"
-#include "quality/report_page/picture.hpp"
+#include "quality/picture/picture.hpp"
 #include "quality/report_page/thinned_view.hpp"
 #include "tests/analytic_meshes.hpp"
 

@@ -1,10 +1,12 @@
 #include "quality/signed_deviation.hpp"
 
 #include "tests/analytic_meshes.hpp"
+#include "tests/structured_tets.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace scan2fea {
 namespace {
@@ -38,6 +40,31 @@ TEST(SignedDeviation, TakesItsSignFromTheMesh) {
   const SurfaceMesh larger = scaled(turned, 1.1);
   for (Triangle& t : turned.triangles) std::swap(t[0], t[1]);
   for (const double d : signed_deviations(larger, TriangleTree(turned))) EXPECT_GT(d, 0.9);
+}
+
+TEST(SignedDeviation, OfNodesIsTheirOwn) {
+  const SurfaceMesh ball = analytic::sphere(10, 3);
+  const TriangleTree tree(ball);
+  for (const double factor : {1.05, 0.95})
+    for (const double d : signed_deviations_of_nodes(scaled(ball, factor), tree))
+      EXPECT_NEAR(d, 10 * (factor - 1), 0.05 * std::abs(10 * (factor - 1)));
+}
+
+// A cube of eight blocks in a larger cube: the node in its middle has none.
+TEST(SignedDeviation, OfNodesInsideThereIsNone) {
+  for (const int order : {1, 2}) {
+    const TetMesh mesh = analytic::tetrahedra_of_box({2, 2, 2}, {2, 2, 2}, order);
+    SurfaceMesh larger = analytic::box({3, 3, 3}, 1);
+    for (Vec3& p : larger.vertices) p -= Vec3::Constant(0.5);
+    const std::vector<double> deviations = signed_deviations_of_nodes(mesh, TriangleTree(larger));
+    for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
+      const Vec3& p = mesh.nodes[n];
+      if (p.minCoeff() > 0 && p.maxCoeff() < 2)
+        EXPECT_TRUE(std::isnan(deviations[n]));
+      else
+        EXPECT_NEAR(deviations[n], -0.5, 1e-12);
+    }
+  }
 }
 
 // One dent: the sample in the middle of the triangle over it tells of it, though its corners lie on the reference.

@@ -1,10 +1,11 @@
 #include "export/formats.hpp"
 #include "export/units.hpp"
 #include "preproc/command/deck_needs.hpp"
-#include "preproc/command/element_fields.hpp"
 #include "preproc/command/flags.hpp"
+#include "preproc/command/loaded_mesh.hpp"
 #include "preproc/command/output_files.hpp"
 #include "preproc/command/progress_display.hpp"
+#include "preproc/command/quality_fields.hpp"
 #include "preproc/command/sub_commands.hpp"
 #include "preproc/command/written_file_flags.hpp"
 #include "preproc/mesh/error.hpp"
@@ -21,6 +22,7 @@ struct ConvertFlags {
   std::filesystem::path output;
   bool force = false;
   std::optional<std::string> unit, scale;
+  std::vector<std::filesystem::path> references;  // several are bodies
   std::optional<DeckKind> deck;
   std::vector<std::string> sets;  // NEW=OLD
   MshVersion msh_version = MshVersion::v4_1;
@@ -69,24 +71,75 @@ void require_deck(const TetMesh& mesh, const ConvertFlags& flags) {
   require_for_deck(*flags.deck, subject);
 }
 
-int convert(const ConvertFlags& flags) {
-  std::vector<OutputPath> files{{flags.output}};
-  if (flags.deck) files.push_back({deck_file(flags.output, *flags.deck)});
-  require_writable(files, {flags.input}, flags.force);
+bool holds_fields(const std::optional<Holdings>& holds) {
+  return holds && holds->fields;
+}
+
+void require_usable(const ConvertFlags& flags) {
   if (!writes_volume(flags.output) && !writes_surface(flags.output))
     throw WrongUsage({.what = "unknown format of the output",
                       .where = flags.output.string(),
                       .value = flags.output.extension().string(),
                       .limit = {},
                       .advice = known_volume_formats() + ", " + known_surface_formats_to_write()});
+  const FileFormat& format = *find_format(flags.output);
+  if (!flags.references.empty() && !holds_fields(format.volume) && !holds_fields(format.surface))
+    throw WrongUsage({.what = "the format holds no distances from a reference",
+                      .where = flags.output.string(),
+                      .value = "--reference",
+                      .limit = {},
+                      .advice = ".vtu, .vtp, or scan2fea check --reference"});
+}
+
+// In the unit of what is written; nothing where none is given.
+std::optional<SurfaceMesh> read_reference(const ConvertFlags& flags) {
+  if (flags.references.empty()) return {};
+  LoadedReference reference = load_references(flags.references);
+  if (!reference.surface)
+    throw WrongUsage({.what = "the reference is a point cloud, which has no sides",
+                      .where = flags.references.front().string(),
+                      .value = {},
+                      .limit = {},
+                      .advice = "a surface: scan2fea reconstruct"});
+  if (flags.scale)
+    for (Vec3& p : reference.surface->vertices) p *= parse_unit_scale(*flags.scale).factor();
+  return std::move(reference.surface);
+}
+
+void tell_other_arrays(const MeshFile& read, const ConvertFlags& flags) {
+  std::string names;
+  for (const std::string& name : read.other_arrays) {
+    const bool is_made_again = is_quality_field(name) || (name == "deviation" && !flags.references.empty());
+    if (!is_made_again) names += (names.empty() ? "" : ", ") + name;
+  }
+  if (!names.empty()) tell({flags.input.string() + ": values of points and cells are not kept: left out " + names});
+}
+
+Notes write_surface_with_fields(const NamedSurface& surface, const std::optional<SurfaceMesh>& reference,
+                                FileOptions options, const ConvertFlags& flags) {
+  if (holds_fields(find_format(flags.output)->surface))
+    add_quality_fields(surface, reference ? &*reference : nullptr, options);
+  return write_surface(surface, flags.output, options);
+}
+
+int convert(const ConvertFlags& flags) {
+  std::vector<OutputPath> files{{flags.output}};
+  if (flags.deck) files.push_back({deck_file(flags.output, *flags.deck)});
+  std::vector<std::filesystem::path> inputs{flags.input};
+  inputs.insert(inputs.end(), flags.references.begin(), flags.references.end());
+  require_writable(files, inputs, flags.force);
+  require_usable(flags);
   ProgressDisplay display(flags.quiet);
   MeshFile read = read_mesh(flags.input);
   for (const std::string& warning : read.warnings) tell({flags.input.string() + ": " + warning});
+  tell_other_arrays(read, flags);
+  const std::optional<SurfaceMesh> reference = read_reference(flags);
   settle_unit(read, flags, display);
   name_sets_again(read, flags);
   FileOptions options{.provenance = flags.input.filename().string(),
                       .msh_version = flags.msh_version,
-                      .fields = {},
+                      .element_fields = {},
+                      .node_fields = {},
                       .ascii = flags.ascii,
                       .set_prefix = flags.numbering.set_prefix,
                       .numbers = flags.numbering.numbers};
@@ -98,9 +151,10 @@ int convert(const ConvertFlags& flags) {
                         .value = {},
                         .limit = {},
                         .advice = "scan2fea tetrahedralize, or scan2fea run"});
-    tell(write_surface(*surface, flags.output, options));
+    tell(write_surface_with_fields(*surface, reference, options, flags));
   } else if (const auto& mesh = std::get<TetMesh>(read.mesh); writes_volume(flags.output)) {
-    if (find_format(flags.output)->volume->element_fields) options.fields = element_fields(mesh);
+    if (holds_fields(find_format(flags.output)->volume))
+      add_quality_fields(mesh, reference ? &*reference : nullptr, options);
     StagedOutputs deck;
     if (flags.deck) {
       require_deck(mesh, flags);
@@ -113,7 +167,7 @@ int convert(const ConvertFlags& flags) {
     Notes notes;
     const NamedSurface boundary = named_boundary(mesh, notes);
     tell(notes);
-    tell(write_surface(boundary, flags.output, options));
+    tell(write_surface_with_fields(boundary, reference, options, flags));
   }
   return 0;
 }
@@ -133,6 +187,11 @@ SubCommand add_convert(CLI::App& root) {
   app->add_flag("--ascii", flags->ascii, "STL and PLY as text");
   app->add_option("--set", flags->sets, "A set of the input gets another name, too: fixed=CLAMP (repeatable)")
       ->type_name("NEW=OLD")
+      ->allow_extra_args(false);
+  app->add_option("--reference", flags->references,
+                  "For viewers, also each point's signed distance from this surface, usually the scan; of several "
+                  "bodies, the option for each")
+      ->type_name("FILE")
       ->allow_extra_args(false);
   add_deck_flag(*app, flags->deck);
   add_msh_version_flag(*app, flags->msh_version);

@@ -1,5 +1,7 @@
 #include "preproc/command/face_files.hpp"
 
+#include "export/formats.hpp"
+#include "preproc/command/quality_fields.hpp"
 #include "preproc/mesh/error_text.hpp"
 
 #include <nlohmann/json.hpp>
@@ -61,31 +63,6 @@ std::string ply(const SurfaceMesh& mesh, const SurfaceFaces& faces) {
     for (const int c : colour(faces.of_triangle[f])) out << static_cast<std::size_t>(c);
     out << "\n";
   }
-  return out.take();
-}
-
-std::string vtk(const SurfaceMesh& mesh, const SurfaceFaces& faces, bool unstructured) {
-  const std::string_view type = unstructured ? "UnstructuredGrid" : "PolyData",
-                         cells = unstructured ? "Cells" : "Polys";
-  Text out;
-  out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"" << type << "\" version=\"1.0\" byte_order=\"LittleEndian\">\n<"
-      << type << ">\n<Piece NumberOfPoints=\"" << std::to_string(mesh.vertices.size())
-      << (unstructured ? "\" NumberOfCells=\"" : "\" NumberOfPolys=\"") << std::to_string(mesh.triangles.size())
-      << "\">\n<Points>\n<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">\n";
-  for (const Vec3& p : mesh.vertices) out << p.x() << p.y() << p.z() << "\n";
-  out << "</DataArray>\n</Points>\n<" << cells
-      << ">\n<DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">\n";
-  for (const Triangle& t : mesh.triangles) out << std::size_t{t[0]} << std::size_t{t[1]} << std::size_t{t[2]} << "\n";
-  out << "</DataArray>\n<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">\n";
-  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) out << 3 * (f + 1);
-  if (unstructured) {
-    out << "\n</DataArray>\n<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">\n";
-    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) out << std::size_t{5};
-  }
-  out << "\n</DataArray>\n</" << cells
-      << ">\n<CellData Scalars=\"face\">\n<DataArray type=\"Int32\" Name=\"face\" format=\"ascii\">\n";
-  for (const std::uint32_t face : faces.of_triangle) out << std::size_t{face} + 1;
-  out << "\n</DataArray>\n</CellData>\n</Piece>\n</" << type << ">\n</VTKFile>\n";
   return out.take();
 }
 
@@ -151,9 +128,15 @@ bool is_face_file(const std::filesystem::path& file) {
   return extension == ".ply" || extension == ".vtp" || extension == ".vtu";
 }
 
-std::string face_file(const SurfaceMesh& mesh, const SurfaceFaces& faces, const std::filesystem::path& file) {
-  if (file.extension() == ".ply") return ply(mesh, faces);
-  return vtk(mesh, faces, file.extension() == ".vtu");
+Notes write_face_file(const NamedSurface& surface, const SurfaceFaces& faces, const std::filesystem::path& file,
+                      StagedOutputs& outputs) {
+  if (file.extension() == ".ply") {
+    outputs.add(file, ply(surface.mesh, faces));
+    return {};
+  }
+  FileOptions options;
+  add_quality_fields(surface, nullptr, options);
+  return write_surface(surface, file, options);
 }
 
 }  // namespace scan2fea::command

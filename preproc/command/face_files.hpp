@@ -1,7 +1,8 @@
 // Faces as figures and as files for viewers.
 #pragma once
 
-#include "preproc/mesh/surface_mesh.hpp"
+#include "export/mesh_file.hpp"
+#include "preproc/command/output_files.hpp"
 #include "preproc/surface/faces/find_faces.hpp"
 #include "quality/report.hpp"
 
@@ -19,8 +20,9 @@ std::string face_table(const SurfaceFaces& faces);
 
 bool is_face_file(const std::filesystem::path& file);
 
-// The surface with the number of each triangle's face (FACE_3: 3), as .ply (a property `face`, and a colour), .vtp or
-// .vtu (cell data `face`); by the extension.
-std::string face_file(const SurfaceMesh& mesh, const SurfaceFaces& faces, const std::filesystem::path& file);
+// The surface, whose sets are the faces, with the number of each triangle's face (FACE_3: 3): as .ply (a property
+// `face`, and a colour), .vtp or .vtu (cell data `face`); by the extension.
+Notes write_face_file(const NamedSurface& surface, const SurfaceFaces& faces, const std::filesystem::path& file,
+                      StagedOutputs& outputs);
 
 }  // namespace scan2fea::command

@@ -92,11 +92,14 @@ int list_faces(FacesFlags flags) {
   report["faces"] = face_list(faces);
   report["sets"] = given;
   report["gates"] = Json::array();
-  const std::vector<NamedSet> sets = sets_of(faces);
-  const std::vector<GateResult> results =
-      finish_report(report, subject_of(mesh, sets, flags.common), flags.common, gates, outputs);
+  surface = {
+      .mesh = std::move(mesh), .node_sets = {}, .face_sets = sets_of(faces), .unit = flags.common.unit.value_or("")};
+  const std::vector<GateResult> results = finish_report(
+      report, subject_of(surface.mesh, surface.face_sets, flags.common), flags.common, gates, outputs);
   const bool passed = all_pass(results);
-  if (flags.output && passed) outputs.add(*flags.output, face_file(mesh, faces, *flags.output));
+  if (flags.output && passed)
+    for (const std::string& note : write_face_file(surface, faces, *flags.output, outputs))
+      display.line("warning: " + note);
   if (!flags.common.quiet && flags.common.json != "-" && flags.common.junit != "-") write_to_stdout(table);
   tell_failures(results, flags.common.input);
   outputs.commit();

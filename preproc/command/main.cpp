@@ -46,7 +46,7 @@ int run_command(int argc, char** argv) {
   const std::vector<SubCommand> commands{add_run(root),         add_surface(root),  add_repair(root),
                                          add_enrich(root),      add_simplify(root), add_tetrahedralize(root),
                                          add_reconstruct(root), add_faces(root),    add_check(root),
-                                         add_compare(root),     add_convert(root)};
+                                         add_compare(root),     add_convert(root),  add_picture(root)};
   if (argc > 1 && !is_known(root, argv[1])) return wrong_usage;
   try {
     root.parse(argc, argv);

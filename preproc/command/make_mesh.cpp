@@ -7,11 +7,11 @@
 #include "preproc/command/body_inputs.hpp"
 #include "preproc/command/deck_needs.hpp"
 #include "preproc/command/early_end.hpp"
-#include "preproc/command/element_fields.hpp"
 #include "preproc/command/figures.hpp"
 #include "preproc/command/gates_asked.hpp"
 #include "preproc/command/input_warnings.hpp"
 #include "preproc/command/output_files.hpp"
+#include "preproc/command/quality_fields.hpp"
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/read_cloud.hpp"
 #include "preproc/mesh/read_surface.hpp"
@@ -246,10 +246,18 @@ FileOptions file_options(const MakeMeshJob& job) {
   return options;
 }
 
+// Of an enriched surface, as PLY has it.
+Field measured_vertices(const PipelineResult& result) {
+  Field measured{
+      .name = "measured", .values = std::vector<double>(result.surface.vertices.size(), 0), .names = {"measured"}};
+  std::fill_n(measured.values.begin(), *result.measured_vertices, 1);
+  return measured;
+}
+
 Notes write_result(PipelineResult& result, FileOptions options, const MakeMeshJob& job) {
   const std::string unit = job.common.unit.value_or("");
   if (result.volume_mesh) {
-    if (find_format(job.output)->volume->element_fields) options.fields = element_fields(*result.volume_mesh);
+    if (find_format(job.output)->volume->fields) add_quality_fields(*result.volume_mesh, &result.reference(), options);
     return write_volume(*result.volume_mesh, job.output, options);
   }
   if (result.measured_vertices && is_surface_file(job.output)) {
@@ -257,9 +265,12 @@ Notes write_result(PipelineResult& result, FileOptions options, const MakeMeshJo
                   {.measured = result.measured_vertices, .unit = unit, .face_sets = {}, .ascii = false});
     return {};
   }
-  return write_surface(
-      NamedSurface{.mesh = result.surface, .node_sets = {}, .face_sets = result.face_sets, .unit = unit}, job.output,
-      options);
+  const NamedSurface surface{.mesh = result.surface, .node_sets = {}, .face_sets = result.face_sets, .unit = unit};
+  if (find_format(job.output)->surface->fields) {
+    add_quality_fields(surface, &result.reference(), options);
+    if (result.measured_vertices) options.node_fields.push_back(measured_vertices(result));
+  }
+  return write_surface(surface, job.output, options);
 }
 
 }  // namespace

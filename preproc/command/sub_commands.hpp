@@ -23,5 +23,6 @@ SubCommand add_faces(CLI::App& root);
 SubCommand add_check(CLI::App& root);
 SubCommand add_compare(CLI::App& root);
 SubCommand add_convert(CLI::App& root);
+SubCommand add_picture(CLI::App& root);
 
 }  // namespace scan2fea::command

@@ -1,6 +1,6 @@
 #include "quality/report_page/packed_arrays.hpp"
 
-#include "quality/report_page/deflate.hpp"
+#include "quality/picture/deflate.hpp"
 
 #include <vector>
 

@@ -1,6 +1,6 @@
 #include "quality/report_page/report_page.hpp"
 
-#include "quality/report_page/deflate.hpp"
+#include "quality/picture/deflate.hpp"
 #include "quality/report_page/html.hpp"
 #include "quality/report_page/page_parts.hpp"
 #include "quality/report_page/page_sections.hpp"

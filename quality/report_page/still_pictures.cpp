@@ -1,7 +1,7 @@
 #include "quality/report_page/still_pictures.hpp"
 
 #include "preproc/mesh/surface_mesh.hpp"
-#include "quality/report_page/picture.hpp"
+#include "quality/picture/picture.hpp"
 #include "quality/triangle_tree.hpp"
 
 #include <tbb/parallel_for.h>
@@ -24,15 +24,6 @@ const std::vector<Direction>& directions() {
   return list;
 }
 
-std::vector<Rgb> colours_of(const ElementMeasures& measures, const TetMesh* volume_mesh,
-                            const MeasuredElements& shown) {
-  std::vector<Rgb> colours;
-  for (std::size_t f = 0; f < measures.faces.triangles.size(); ++f)
-    colours.push_back(
-        colour_of_step(shown, shown.steps[shown.of == "tetrahedra" ? volume_mesh->boundary[f].tetrahedron : f]));
-  return colours;
-}
-
 PictureView close_up(const SurfaceMesh& mesh, const Vec3& place) {
   const Triangle& face = mesh.triangles[TriangleTree(mesh).closest(place).triangle];
   const Vec3 outward = area_vector(mesh, face).stableNormalized();
@@ -46,14 +37,6 @@ PictureView close_up(const SurfaceMesh& mesh, const Vec3& place) {
 }
 
 }  // namespace
-
-Rgb colour_of_step(const MeasuredElements& measure, std::uint16_t step) {
-  if (step == no_step) return neutral_colour;
-  const double share = step / (static_cast<double>(measure.scale.bars) * measure.scale.steps_per_bar());
-  if (measure.measure == "deviation") return diverging_colours()[static_cast<std::size_t>(255 * share)];
-  const bool large_is_bad = measure.measure == "edge_ratio" || measure.measure == "max_dihedral_deg";
-  return sequential_colours()[static_cast<std::size_t>(255 * (large_is_bad ? share : 1 - share))];
-}
 
 const MeasuredElements& pictured_measure(const std::vector<MeasuredElements>& histograms) {
   const auto named = [&](const char* name) {
@@ -70,7 +53,10 @@ std::vector<StillPicture> still_pictures(const ElementMeasures& measures, const 
   std::vector<StillPicture> pictures;
   const SurfaceMesh& mesh = measures.faces;
   if (mesh.triangles.empty()) return pictures;
-  const std::vector<Rgb> colours = colours_of(measures, volume_mesh, pictured_measure(histograms));
+  std::vector<std::uint32_t> behind;
+  if (volume_mesh != nullptr)
+    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) behind.push_back(volume_mesh->boundary[f].tetrahedron);
+  const std::vector<Rgb> colours = colours_of_measure(pictured_measure(histograms), {}, behind).of_faces;
   const std::size_t views = directions().size();
   pictures.resize(views + (worst_place ? 1 : 0));
   tbb::parallel_for(std::size_t{0}, pictures.size(), [&](std::size_t i) {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "quality/element_measures.hpp"
-#include "quality/report_page/colour_maps.hpp"
+#include "quality/picture/element_colours.hpp"
 
 #include <optional>
 #include <string>
@@ -23,8 +23,5 @@ std::vector<StillPicture> still_pictures(const ElementMeasures& measures, const 
 
 // What their colours mean: the measure, as in `histograms`.
 const MeasuredElements& pictured_measure(const std::vector<MeasuredElements>& histograms);
-
-// The colour of each step's bar.
-Rgb colour_of_step(const MeasuredElements& measure, std::uint16_t step);
 
 }  // namespace scan2fea

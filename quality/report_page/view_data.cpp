@@ -1,7 +1,7 @@
 #include "quality/report_page/view_data.hpp"
 
-#include "quality/report_page/colour_maps.hpp"
-#include "quality/report_page/deflate.hpp"
+#include "quality/picture/colour_maps.hpp"
+#include "quality/picture/deflate.hpp"
 #include "quality/report_page/packed_arrays.hpp"
 #include "quality/report_page/thinned_view.hpp"
 

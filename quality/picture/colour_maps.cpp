@@ -1,4 +1,4 @@
-#include "quality/report_page/colour_maps.hpp"
+#include "quality/picture/colour_maps.hpp"
 
 #include <algorithm>
 #include <cmath>

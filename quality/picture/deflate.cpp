@@ -1,4 +1,4 @@
-#include "quality/report_page/deflate.hpp"
+#include "quality/picture/deflate.hpp"
 
 #include <cstdint>
 #include <new>

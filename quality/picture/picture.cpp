@@ -1,6 +1,6 @@
-#include "quality/report_page/picture.hpp"
+#include "quality/picture/picture.hpp"
 
-#include "quality/report_page/png.hpp"
+#include "quality/picture/png.hpp"
 
 #include <algorithm>
 #include <array>
@@ -37,8 +37,10 @@ class Projection {
   double brightness(const Vec3& normal) const {
     constexpr double ambient = 0.38;  // the rest comes from above the eye's left shoulder
     const Vec3 light = (up_ - 2 * away_ - 0.6 * right_).normalized();
-    const Vec3 facing = normal.dot(away_) > 0 ? Vec3(-normal) : normal;
-    return ambient + (1 - ambient) * std::max(0.0, facing.dot(light));
+    constexpr double of_backs = 0.6;
+    const bool is_back = normal.dot(away_) > 0;
+    const Vec3 facing = is_back ? Vec3(-normal) : normal;
+    return (is_back ? of_backs : 1) * (ambient + (1 - ambient) * std::max(0.0, facing.dot(light)));
   }
 
  private:
@@ -52,8 +54,10 @@ class Canvas {
   Canvas(std::uint32_t width, std::uint32_t height)
       : width_(width), height_(height), samples_(static_cast<std::size_t>(width) * height) {}
 
-  // Where `edges` is above 0, samples that are nearer than this to a side are dark.
-  void fill(const std::array<Vec3, 3>& p, const Rgb& colour, double brightness, double edges, double nearest) {
+  // Where `edges` is above 0, samples that are nearer than this to a side are dark. `beyond`: how far each corner is
+  // beyond a cut, if there is one.
+  void fill(const std::array<Vec3, 3>& p, const Rgb& colour, double brightness, double edges, double nearest,
+            const std::optional<Vec3>& beyond) {
     const double area = (p[1] - p[0]).head<2>().x() * (p[2] - p[0]).y() - (p[1] - p[0]).y() * (p[2] - p[0]).x();
     if (!(std::abs(area) > 0)) return;
     const auto [left, right] = std::minmax({p[0].x(), p[1].x(), p[2].x()});
@@ -74,6 +78,7 @@ class Canvas {
           b[k] = (u.x() * v.y() - u.y() * v.x()) / area;
         }
         if (b[0] < 0 || b[1] < 0 || b[2] < 0) continue;
+        if (beyond && Vec3(b[0], b[1], b[2]).dot(*beyond) > 0) continue;
         const auto depth = static_cast<float>(b[0] * p[0].z() + b[1] * p[1].z() + b[2] * p[2].z());
         Sample& sample = samples_[static_cast<std::size_t>(y) * width_ + x];
         if (!(depth < sample.depth) || depth < nearest) continue;
@@ -95,6 +100,7 @@ class Canvas {
 
   std::vector<std::uint8_t> rgba() const {
     std::vector<std::uint8_t> pixels;
+    pixels.reserve(samples_.size() / (samples * samples) * 4);
     for (std::uint32_t y = 0; y < height_; y += samples)
       for (std::uint32_t x = 0; x < width_; x += samples) {
         std::array<unsigned, 3> sum{};
@@ -118,9 +124,8 @@ class Canvas {
 
 }  // namespace
 
-PictureView view_of_all(const SurfaceMesh& mesh, const Vec3& towards, const Vec3& up) {
+PictureView view_of_all(const SurfaceMesh& mesh, const Vec3& towards, const Vec3& up, double aspect) {
   constexpr double room = 1.06;
-  constexpr double aspect = 4.0 / 3;
   const Vec3 away = towards.normalized(), right = away.cross(up).normalized(), above = right.cross(away);
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
   for (const Vec3& p : mesh.vertices) {
@@ -134,8 +139,8 @@ PictureView view_of_all(const SurfaceMesh& mesh, const Vec3& towards, const Vec3
           .height = room * std::max({size.y(), size.x() / aspect, std::numeric_limits<double>::min()})};
 }
 
-std::string draw_picture(const SurfaceMesh& mesh, std::span<const Rgb> colours, const PictureView& view,
-                         const PictureOptions& options) {
+Raster draw_raster(const SurfaceMesh& mesh, std::span<const Rgb> colours, const PictureView& view,
+                   const PictureOptions& options) {
   const std::uint32_t width = samples * options.width, height = samples * options.height;
   const Projection project(view, width, height);
   Canvas canvas(width, height);
@@ -144,11 +149,24 @@ std::string draw_picture(const SurfaceMesh& mesh, std::span<const Rgb> colours, 
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
     const Triangle& t = mesh.triangles[f];
     const double brightness = project.brightness(area_vector(mesh, t).stableNormalized());
-    canvas.fill({project(mesh.vertices[t[0]]), project(mesh.vertices[t[1]]), project(mesh.vertices[t[2]])}, colours[f],
-                brightness, options.edges ? edge : 0, nearest);
+    const std::array<Vec3, 3> corners{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
+    std::optional<Vec3> beyond;
+    if (view.cut) {
+      const auto [a, b, c] = corners;
+      const Vec3& normal = view.cut->normal;
+      beyond = Vec3(normal.dot(a), normal.dot(b), normal.dot(c)).array() - view.cut->offset;
+    }
+    canvas.fill({project(corners[0]), project(corners[1]), project(corners[2])}, colours[f], brightness,
+                options.edges ? edge : 0, nearest, beyond);
   }
   if (options.ring) canvas.draw_ring(project(*options.ring), 0.06 * height, 1.5);
-  return png(options.width, options.height, canvas.rgba());
+  return {.width = options.width, .height = options.height, .rgba = canvas.rgba()};
+}
+
+std::string draw_picture(const SurfaceMesh& mesh, std::span<const Rgb> colours, const PictureView& view,
+                         const PictureOptions& options) {
+  const Raster raster = draw_raster(mesh, colours, view, options);
+  return png(raster.width, raster.height, raster.rgba);
 }
 
 }  // namespace scan2fea

@@ -1,6 +1,6 @@
-#include "quality/report_page/png.hpp"
+#include "quality/picture/png.hpp"
 
-#include "quality/report_page/deflate.hpp"
+#include "quality/picture/deflate.hpp"
 
 #include <string_view>
 #include <zlib.h>
