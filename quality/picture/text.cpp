@@ -1,8 +1,11 @@
 #include "quality/picture/text.hpp"
 
+#include "preproc/mesh/error.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <dlfcn.h>
 #include <ft2build.h>
 #include FT_FREETYPE_H
 
@@ -23,20 +26,57 @@ extern "C" const unsigned char scan2fea_picture_font[], scan2fea_picture_font_en
 namespace scan2fea {
 namespace {
 
+constexpr const char* free_type_library = "libfreetype.so.6";
+
+// FreeType's functions, loaded with the first text: to load it with the program takes some ms of every run.
+struct FreeType {
+  decltype(&FT_Init_FreeType) begin;
+  decltype(&FT_Done_FreeType) end;
+  decltype(&FT_New_Memory_Face) new_face;
+  decltype(&FT_Done_Face) end_face;
+  decltype(&FT_Set_Char_Size) set_size;
+  decltype(&FT_Load_Char) load_letter;
+};
+
+template <class Function>
+Function* function_of(void* library, const char* name) {
+  void* function = library != nullptr ? ::dlsym(library, name) : nullptr;
+  if (function != nullptr) return reinterpret_cast<Function*>(function);
+  const char* reason = ::dlerror();
+  throw IoError({.what = "the text of a picture cannot be drawn: FreeType does not load",
+                 .where = free_type_library,
+                 .value = reason != nullptr ? reason : "",
+                 .limit = {},
+                 .advice = "apt-get install libfreetype6, or --colour none"});
+}
+
+const FreeType& free_type() {
+  static const FreeType functions = [] {
+    void* library = ::dlopen(free_type_library, RTLD_NOW | RTLD_LOCAL);
+    return FreeType{.begin = function_of<decltype(FT_Init_FreeType)>(library, "FT_Init_FreeType"),
+                    .end = function_of<decltype(FT_Done_FreeType)>(library, "FT_Done_FreeType"),
+                    .new_face = function_of<decltype(FT_New_Memory_Face)>(library, "FT_New_Memory_Face"),
+                    .end_face = function_of<decltype(FT_Done_Face)>(library, "FT_Done_Face"),
+                    .set_size = function_of<decltype(FT_Set_Char_Size)>(library, "FT_Set_Char_Size"),
+                    .load_letter = function_of<decltype(FT_Load_Char)>(library, "FT_Load_Char")};
+  }();
+  return functions;
+}
+
 // FreeType's objects, which are not for two threads at once: each text has its own, which takes 0.1 ms.
 class Font {
  public:
   explicit Font(double size) {
-    if (FT_Init_FreeType(&library_) != 0) return;
-    if (FT_New_Memory_Face(library_, scan2fea_picture_font, scan2fea_picture_font_end - scan2fea_picture_font, 0,
-                           &face_) != 0)
+    if (free_type().begin(&library_) != 0) return;
+    if (free_type().new_face(library_, scan2fea_picture_font, scan2fea_picture_font_end - scan2fea_picture_font, 0,
+                             &face_) != 0)
       return;
     constexpr double unit = 64;  // FreeType counts in 64ths of a pixel
-    FT_Set_Char_Size(face_, 0, std::lround(unit * size), 72, 72);
+    free_type().set_size(face_, 0, std::lround(unit * size), 72, 72);
   }
   ~Font() {
-    if (face_ != nullptr) FT_Done_Face(face_);
-    if (library_ != nullptr) FT_Done_FreeType(library_);
+    if (face_ != nullptr) free_type().end_face(face_);
+    if (library_ != nullptr) free_type().end(library_);
   }
   Font(const Font&) = delete;
   Font& operator=(const Font&) = delete;
@@ -44,7 +84,7 @@ class Font {
   // Null where memory is short. Without hinting, so that widths are proportional to the size.
   FT_GlyphSlot glyph(char32_t letter, bool drawn) const {
     const FT_Int32 flags = FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP | (drawn ? FT_LOAD_RENDER : 0);
-    return face_ != nullptr && FT_Load_Char(face_, letter, flags) == 0 ? face_->glyph : nullptr;
+    return face_ != nullptr && free_type().load_letter(face_, letter, flags) == 0 ? face_->glyph : nullptr;
   }
 
  private:

@@ -1,4 +1,4 @@
-// Text in pictures: by FreeType, in a font that is built in.
+// Text in pictures: by FreeType, in a font that is built in. Both throw IoError where FreeType is not installed.
 #pragma once
 
 #include "quality/picture/colour_maps.hpp"
