@@ -30,7 +30,7 @@ class BodiesPipeline {
         options_(options),
         progress_(progress),
         listener_(listener),
-        log_(stages_, listener) {}
+        log_(stages_, listener, progress) {}
 
   PipelineResult run() {
     take_scans();

@@ -103,7 +103,7 @@ void run_stages(SurfaceMesh scan, const SurfaceMesh* seen, const PipelineOptions
 PipelineResult run_pipeline(SurfaceMesh scan, const PipelineOptions& options, const Progress& progress,
                             const StageListener& listener) {
   PipelineResult result;
-  StageLog log(result.stages, listener);
+  StageLog log(result.stages, listener, progress);
   run_stages(std::move(scan), nullptr, options, progress, log, result);
   return result;
 }
@@ -111,7 +111,7 @@ PipelineResult run_pipeline(SurfaceMesh scan, const PipelineOptions& options, co
 PipelineResult run_pipeline(const PointCloud& cloud, const PipelineOptions& options, const Progress& progress,
                             const StageListener& listener) {
   PipelineResult result;
-  StageLog log(result.stages, listener);
+  StageLog log(result.stages, listener, progress);
   SurfaceMesh scan;
   std::optional<SurfaceMesh> seen;
   log.run("reconstruct", [&](StageRecord& record) {

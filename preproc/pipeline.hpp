@@ -94,7 +94,9 @@ struct StageRecord {
   double seconds = 0;
   std::uint64_t peak_bytes = 0;  // of the process while the stage ran; 0 where the system does not tell
   std::vector<std::pair<std::string, double>> changes;  // "holes_closed" -> 5, in the order they are shown
-  std::vector<std::string> remarks;  // what a person should know: places of changes, a method that gave way
+  std::vector<std::string> warnings;                    // what a person must know: what was lost of what the scan has
+  std::vector<std::string> remarks;                     // and should: places of changes, a method that gave way
+  std::vector<std::string> reasons;                     // and may: why it came out as it did
 };
 
 struct FittedCurves;

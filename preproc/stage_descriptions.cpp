@@ -29,6 +29,27 @@ std::string describe(RepairKind kind, const ChangeGroup& group) {
   return text;
 }
 
+// One line, whatever the number of places: what the mesh has not of the edges that were found.
+void warn_of_lost_edges(const SimplifyResult& result, std::size_t unsupported, StageRecord& record) {
+  if (unsupported > 0) {
+    std::string why;
+    for (const UnsupportedCreases& dropped : result.unsupported_creases)
+      why += (why.empty() ? "" : "; ") + std::to_string(dropped.edges) + ": " + describe(dropped.fault);
+    record.warnings.push_back(
+        (unsupported == result.feature_edges
+             ? "none of the " + std::to_string(unsupported)
+             : std::to_string(unsupported) + " of the " + std::to_string(result.feature_edges)) +
+        " sharp edges found on the scan " + (unsupported == result.feature_edges ? "is kept" : "are not kept") +
+        " as an edge of the mesh (" + why +
+        "); where they are edges of the part, --features-from LINES.obj keeps those that are given");
+  }
+  if (result.feature_edges_too_fine > 0)
+    record.warnings.push_back(std::to_string(result.feature_edges_too_fine) +
+                              " edges of creases are not kept: they are too short, or their faces too small, for "
+                              "triangles of the wanted size");
+  if (!result.feature_remark.empty()) record.warnings.push_back(result.feature_remark);
+}
+
 // What became of the sharp edges of the scan. Gates may name the figures, so that they are there even where all are 0.
 void describe_features(const SimplifyResult& result, const InScan& in_scan, StageRecord& record) {
   std::size_t unsupported = 0;
@@ -38,15 +59,11 @@ void describe_features(const SimplifyResult& result, const InScan& in_scan, Stag
   record.changes.emplace_back("feature_edges_too_fine", static_cast<double>(result.feature_edges_too_fine));
   record.changes.emplace_back("feature_edges_after", static_cast<double>(result.feature_edges_kept));
   for (const UnsupportedCreases& dropped : result.unsupported_creases)
-    record.remarks.push_back(std::to_string(dropped.edges) + " sharp edges in " + std::to_string(dropped.networks) +
+    record.reasons.push_back(std::to_string(dropped.edges) + " sharp edges in " + std::to_string(dropped.networks) +
                              (dropped.networks == 1 ? " place, " : " places, the longest ") + "at " +
                              error_text(in_scan.place(dropped.place)) +
                              ", are not kept as creases: " + describe(dropped.fault));
-  if (result.feature_edges_too_fine > 0)
-    record.remarks.push_back(
-        std::to_string(result.feature_edges_too_fine) +
-        " edges of creases are too short, or their faces too small, for triangles of the wanted size");
-  if (!result.feature_remark.empty()) record.remarks.push_back(result.feature_remark);
+  warn_of_lost_edges(result, unsupported, record);
 }
 
 }  // namespace
@@ -168,11 +185,11 @@ void describe(const TetrahedralizeResult& result, const InScan& in_scan, StageRe
                     {"nodes", static_cast<double>(result.mesh.nodes.size())},
                     {"surface_allows_min_dihedral_deg", result.bound.min_dihedral_deg},
                     {"surface_allows_scaled_jacobian", result.bound.scaled_jacobian}};
-  record.remarks.clear();
+  record.reasons.clear();
   if (const auto& at = result.bound.min_dihedral_at)
-    record.remarks.push_back("the surface bounds the dihedral angle at " + error_text(in_scan.place(*at)));
+    record.reasons.push_back("the surface bounds the dihedral angle at " + error_text(in_scan.place(*at)));
   if (const auto& at = result.bound.scaled_jacobian_at)
-    record.remarks.push_back("the surface bounds the scaled Jacobian at " + error_text(in_scan.place(*at)));
+    record.reasons.push_back("the surface bounds the scaled Jacobian at " + error_text(in_scan.place(*at)));
 }
 
 // What was gained, and the same figures of the mesh that stands now as of the first.

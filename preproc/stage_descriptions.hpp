@@ -27,7 +27,7 @@ class InScan {
   const MirrorFrame* mirror_;
 };
 
-// Each fills `changes` and `remarks` of the record.
+// Each fills the record's figures and texts.
 void describe(const ReconstructResult& result, StageRecord& record);
 void describe(const RepairResult& result, StageRecord& record);
 void describe(const EnrichResult& result, StageRecord& record);

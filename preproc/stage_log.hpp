@@ -1,4 +1,4 @@
-// Times stages, and hands their records on.
+// Times stages, says when one begins, and hands their records on.
 #pragma once
 
 #include "preproc/pipeline.hpp"
@@ -11,11 +11,13 @@ namespace scan2fea {
 
 class StageLog {
  public:
-  StageLog(std::vector<StageRecord>& records, const StageListener& listener) : records_(records), listener_(listener) {}
+  StageLog(std::vector<StageRecord>& records, const StageListener& listener, const Progress& progress)
+      : records_(records), listener_(listener), progress_(progress) {}
 
   template <class Work>
   void run(const std::string& name, Work work) {
     const auto start = begin();
+    progress_.begin(name);
     StageRecord record;
     record.name = name;
     work(record);
@@ -28,6 +30,7 @@ class StageLog {
 
   std::vector<StageRecord>& records_;
   const StageListener& listener_;
+  const Progress& progress_;
 };
 
 }  // namespace scan2fea

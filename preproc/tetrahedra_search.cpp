@@ -1,6 +1,7 @@
 #include "preproc/tetrahedra_search.hpp"
 
 #include "preproc/mesh/error.hpp"
+#include "preproc/mesh/error_text.hpp"
 #include "preproc/surface/sizing/shorter_edges.hpp"
 #include "preproc/volume/boundary_relocation.hpp"
 #include "preproc/volume/poor_elements.hpp"
@@ -117,6 +118,10 @@ RenewalResult renew_where_poor(Simplification& search, const SimplifyOptions& si
       break;
     }
     const double angle = smallest_dihedral(latest);
+    progress.explain("around " + std::to_string(poor.size()) + " poor tetrahedra " +
+                     (ways_tried == 0 ? "edges were made shorter" : "vertices of the surface were moved") +
+                     ": smallest dihedral angle " + error_text(angle, 3) + " deg, of the best so far " +
+                     error_text(result.min_dihedral_after_deg, 3) + " deg");
     const bool is_mended = is_poor && is_good(angle, latest, good_deg) && angle > result.min_dihedral_after_deg;
     if (!is_mended && angle < result.min_dihedral_after_deg + worth_it_deg) continue;
     if (is_poor && angle - result.min_dihedral_after_deg > worth_again * (moved_deg - result.min_dihedral_after_deg))

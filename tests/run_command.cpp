@@ -25,13 +25,14 @@ void keep_figures(const std::string& arguments, const std::filesystem::path& sta
 
 }  // namespace
 
-CommandResult run_command(const std::string& arguments, const std::string& standard_output) {
+CommandResult run_command(const std::string& arguments, const std::string& standard_output,
+                          const std::string& environment, const std::string& standard_input) {
   const TemporaryFolder folder;
   const auto err = folder / "stderr";
   const std::filesystem::path out =
       standard_output.empty() ? folder / "stdout" : std::filesystem::path(standard_output);
-  const std::string line = std::string("'") + SCAN2FEA_COMMAND + "' " + arguments + " >'" + out.string() + "' 2>'" +
-                           err.string() + "' </dev/null";
+  const std::string line = environment + " '" + SCAN2FEA_COMMAND + "' " + arguments + " >'" + out.string() + "' 2>'" +
+                           err.string() + "' <'" + standard_input + "'";
   const int status = std::system(line.c_str());
   if (WIFEXITED(status) && WEXITSTATUS(status) <= 1) keep_figures(arguments, out);
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),

@@ -12,7 +12,8 @@ struct CommandResult {
 };
 
 // `arguments` is what a shell would be given after the command's name. What is written to stdout goes to the file, if
-// one is given.
-CommandResult run_command(const std::string& arguments, const std::string& standard_output = {});
+// one is given. `environment`: what a shell would be given before it, "COLUMNS=60".
+CommandResult run_command(const std::string& arguments, const std::string& standard_output = {},
+                          const std::string& environment = {}, const std::string& standard_input = "/dev/null");
 
 }  // namespace scan2fea

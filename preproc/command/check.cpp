@@ -1,8 +1,10 @@
 #include "export/formats.hpp"
 #include "export/units.hpp"
+#include "preproc/command/expected_stages.hpp"
 #include "preproc/command/figures.hpp"
 #include "preproc/command/gates_asked.hpp"
 #include "preproc/command/loaded_mesh.hpp"
+#include "preproc/command/option_text.hpp"
 #include "preproc/command/output_files.hpp"
 #include "preproc/command/sub_commands.hpp"
 #include "preproc/mesh/error.hpp"
@@ -57,8 +59,13 @@ int check(CheckFlags flags) {
   std::vector<OutputPath> files = report_outputs(flags.common);
   if (flags.leaks) files.push_back({*flags.leaks});
   require_writable(files, inputs, flags.common.force);
-  ProgressDisplay display(flags.common.quiet);
-  const LoadedMesh mesh = load_mesh(flags.common.input);
+  ProgressDisplay display(flags.common);
+  std::vector<std::filesystem::path> read{flags.common.input};
+  read.insert(read.end(), flags.references.begin(), flags.references.end());
+  display.expect(expected_measuring(read, flags.common));
+  display.begin("read");
+  const std::filesystem::path file = file_to_read(flags.common.input, flags.common.formats.from);
+  const LoadedMesh mesh = load_mesh(file);
   const std::string unit = settled_unit(mesh.unit, flags.common.unit, flags.common.input.string());
   if (!unit.empty()) flags.common.unit = unit;
   const std::vector<Gate> gates = gates_for(asked, mesh.volume_mesh.has_value());
@@ -67,7 +74,7 @@ int check(CheckFlags flags) {
   Subject subject = subject_of(mesh);
   compare_with(reference, subject);
   subject.inputs = read_files(flags);
-  subject.first_element = first_element_of(flags.common.input);
+  subject.first_element = first_element_of(file);
   StagedOutputs outputs;
   if (flags.leaks) {
     const std::vector<Opening> openings = find_openings(mesh.surface);
@@ -76,6 +83,7 @@ int check(CheckFlags flags) {
   }
   const bool all_pass = report_figures(subject, flags.common, gates, display, outputs);
   outputs.commit();
+  display.finish();
   return all_pass ? 0 : 1;
 }
 
@@ -84,7 +92,13 @@ int check(CheckFlags flags) {
 SubCommand add_check(CLI::App& root) {
   const auto flags = std::make_shared<CheckFlags>();
   CLI::App* app = root.add_subcommand("check", "Figures and gates of a surface or a volume mesh");
+  app->group(look_group);
+  app->footer(
+      "Examples:\n"
+      "  scan2fea check scan.ply\n"
+      "  scan2fea check part.inp --reference scan.ply --json -");
   add_common_flags(*app, flags->common);
+  const OptionGroup group(*app, "Figures, gates and reports");
   app->add_option("--reference", flags->references,
                   "What the surface is compared with, usually the scan; of a cloud, its points' distances; of several "
                   "bodies, the option for each")

@@ -1,8 +1,10 @@
 #include "export/formats.hpp"
 #include "export/units.hpp"
+#include "preproc/command/expected_stages.hpp"
 #include "preproc/command/figures.hpp"
 #include "preproc/command/gates_asked.hpp"
 #include "preproc/command/loaded_mesh.hpp"
+#include "preproc/command/option_text.hpp"
 #include "preproc/command/output_files.hpp"
 #include "preproc/command/sub_commands.hpp"
 
@@ -33,8 +35,11 @@ int compare(CompareFlags flags) {
   inputs.push_back(flags.second);
   if (flags.reference) inputs.push_back(*flags.reference);
   require_writable(report_outputs(flags.common), inputs, flags.common.force);
-  ProgressDisplay display(flags.common.quiet);
-  const LoadedMesh first = load_mesh(flags.common.input), second = load_mesh(flags.second);
+  ProgressDisplay display(flags.common);
+  display.expect(expected_measuring({flags.common.input, flags.second}, flags.common));
+  display.begin("read");
+  const LoadedMesh first = load_mesh(file_to_read(flags.common.input, flags.common.formats.from)),
+                   second = load_mesh(flags.second);
   const std::vector<Gate> gates = gates_for(asked, second.volume_mesh.has_value());
   const std::string unit =
       settled_unit(first.unit.empty() ? second.unit : first.unit, flags.common.unit, flags.common.input.string());
@@ -57,6 +62,7 @@ int compare(CompareFlags flags) {
   StagedOutputs outputs;
   const bool all_pass = report_figures(subject, flags.common, gates, display, outputs);
   outputs.commit();
+  display.finish();
   return all_pass ? 0 : 1;
 }
 
@@ -66,9 +72,14 @@ SubCommand add_compare(CLI::App& root) {
   const auto flags = std::make_shared<CompareFlags>();
   CLI::App* app =
       root.add_subcommand("compare", "Two meshes side by side: before and after, or of two ways to make one");
+  app->group(look_group);
+  app->footer(
+      "Examples:\n"
+      "  scan2fea compare before.inp after.inp --reference scan.ply --report both");
   add_common_flags(*app, flags->common);
   app->get_option("input")->description("The first mesh, from which the second is measured");
   app->add_option("second", flags->second, "The second mesh")->required()->type_name("FILE");
+  const OptionGroup group(*app, "Figures, gates and reports");
   app->add_option("--reference", flags->reference, "What both are measured from, too, usually the scan")
       ->type_name("FILE");
   return {app, [flags] { return compare(*flags); }};

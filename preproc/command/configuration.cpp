@@ -1,11 +1,14 @@
 #include "preproc/command/configuration.hpp"
 
+#include "preproc/command/option_text.hpp"
 #include "preproc/mesh/error.hpp"
 
 #include <toml++/toml.h>
 
+#include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <fstream>
-#include <sstream>
 #include <vector>
 
 namespace scan2fea::command {
@@ -15,14 +18,22 @@ std::string place(const std::filesystem::path& file, const toml::node& node) {
   return file.string() + ":" + std::to_string(node.source().begin.line);
 }
 
+// That reads back the same: 0.1, and 1000 for 1e3, which options of whole numbers take, too.
+std::string shortest(double number) {
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof text, number).ptr;
+  const std::string as_short(text, end);
+  constexpr double largest_whole = 1e15;
+  return number == std::floor(number) && std::abs(number) < largest_whole
+             ? std::to_string(static_cast<long long>(number))
+             : as_short;
+}
+
 std::string as_flag_value(const toml::node& node, const std::string& where, const std::string& key) {
   if (const auto* text = node.as_string()) return text->get();
   if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
-  if (node.is_number()) {
-    std::ostringstream out;
-    out << toml::node_view<const toml::node>(&node);
-    return out.str();
-  }
+  if (const auto* whole = node.as_integer()) return std::to_string(whole->get());
+  if (const auto* number = node.as_floating_point()) return shortest(number->get());
   throw WrongUsage({.what = "value of a kind no option takes",
                     .where = where,
                     .value = key,
@@ -30,12 +41,26 @@ std::string as_flag_value(const toml::node& node, const std::string& where, cons
                     .advice = "text, a number, true or false, or an array of these"});
 }
 
-std::vector<std::string> values_of(const toml::node& node, const std::string& where, const std::string& key) {
+// A list may be one of lists: each is then what the option takes at a time, as a box.
+std::vector<std::string> values_of(const toml::node& node, const CLI::Option& option, const std::string& where,
+                                   const std::string& key) {
+  const toml::array* array = node.as_array();
+  if (array == nullptr) return {as_flag_value(node, where, key)};
   std::vector<std::string> values;
-  if (const toml::array* array = node.as_array()) {
-    for (const toml::node& element : *array) values.push_back(as_flag_value(element, where, key));
-  } else {
-    values.push_back(as_flag_value(node, where, key));
+  for (const toml::node& element : *array) {
+    const toml::array* at_a_time = element.as_array();
+    if (at_a_time == nullptr) {
+      values.push_back(as_flag_value(element, where, key));
+      continue;
+    }
+    const auto wanted = static_cast<std::size_t>(std::max(1, option.get_type_size_max()));
+    if (at_a_time->size() != wanted)
+      throw WrongUsage({.what = "list of another length than the option takes",
+                        .where = where,
+                        .value = key + ", " + std::to_string(at_a_time->size()) + " values",
+                        .limit = std::to_string(wanted),
+                        .advice = key + " = [[" + option.get_type_name() + "], ...]"});
+    for (const toml::node& value : *at_a_time) values.push_back(as_flag_value(value, where, key));
   }
   return values;
 }
@@ -57,6 +82,23 @@ bool is_sub_command(const CLI::App& root, std::string_view name) {
   return !commands.empty();
 }
 
+// By the name of its flag or, of what has no dashes (the input), its own.
+CLI::Option* find_option(CLI::App& command, const std::string& key) {
+  CLI::Option* option = command.get_option_no_throw("--" + key);
+  if (option != nullptr) return option;
+  option = command.get_option_no_throw(key);
+  return option != nullptr && option->get_positional() ? option : nullptr;
+}
+
+std::vector<std::string> keys_of(const CLI::App& command) {
+  std::vector<std::string> keys;
+  for (const OptionText& option : options_of(command)) {
+    const std::string& name = option.names.back();
+    keys.push_back(name.substr(name.find_first_not_of('-')));
+  }
+  return keys;
+}
+
 bool known_to_any(const CLI::App& root, const std::string& key) {
   const auto commands = root.get_subcommands([](const CLI::App*) { return true; });
   return std::any_of(commands.begin(), commands.end(),
@@ -69,13 +111,16 @@ std::vector<Setting> settings_in(const toml::table& table, const CLI::App& root,
   for (const auto& [name, node] : table) {
     const std::string key(name.str());
     if (node.is_table()) continue;
-    CLI::Option* option = command.get_option_no_throw("--" + key);
+    CLI::Option* option = find_option(command, key);
     if (option != nullptr && option->get_configurable() && key != "config") {
-      settings.push_back({option, values_of(node, place(file, node), key), place(file, node)});
+      std::vector<std::string> values = values_of(node, *option, place(file, node), key);
+      if (option->get_expected_max() == 0)  // of --no-primitives true is false
+        for (std::string& value : values) value = option->get_flag_value(key, value);
+      settings.push_back({option, std::move(values), place(file, node)});
     } else if (option != nullptr || !known_to_any(root, key)) {
       throw WrongUsage({.what = "unknown option",
                         .where = place(file, node),
-                        .value = key,
+                        .value = key + did_you_mean(key, keys_of(command)),
                         .limit = {},
                         .advice = "the names of `scan2fea " + command.get_name() + " --help`, without the dashes"});
     }

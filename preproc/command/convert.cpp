@@ -1,9 +1,12 @@
 #include "export/formats.hpp"
 #include "export/units.hpp"
+#include "preproc/command/console.hpp"
 #include "preproc/command/deck_needs.hpp"
 #include "preproc/command/flags.hpp"
 #include "preproc/command/loaded_mesh.hpp"
+#include "preproc/command/option_text.hpp"
 #include "preproc/command/output_files.hpp"
+#include "preproc/command/piped_files.hpp"
 #include "preproc/command/progress_display.hpp"
 #include "preproc/command/quality_fields.hpp"
 #include "preproc/command/sub_commands.hpp"
@@ -11,8 +14,6 @@
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/error_text.hpp"
 #include "preproc/mesh/length_unit.hpp"
-
-#include <cstdio>
 
 namespace scan2fea::command {
 namespace {
@@ -28,7 +29,8 @@ struct ConvertFlags {
   MshVersion msh_version = MshVersion::v4_1;
   bool ascii = false;
   NumberFlags numbering;
-  bool quiet = false;
+  PipeFlags formats;
+  DisplayFlags display;
 };
 
 void settle_unit(MeshFile& mesh, const ConvertFlags& flags, ProgressDisplay& display) {
@@ -44,13 +46,12 @@ void settle_unit(MeshFile& mesh, const ConvertFlags& flags, ProgressDisplay& dis
   if (!length_unit(unit)) return;
   const auto& points =
       mesh.is_volume() ? std::get<TetMesh>(mesh.mesh).nodes : std::get<NamedSurface>(mesh.mesh).mesh.vertices;
-  if (const auto doubt = implausible_size(bounding_box(points).diagonal(), unit))
-    std::fprintf(stderr, "scan2fea: warning: %s: %s\n", name.c_str(), doubt->c_str());
+  if (const auto doubt = implausible_size(bounding_box(points).diagonal(), unit)) warn(name + ": " + *doubt);
 }
 
 // What is lost is told even where nothing else is.
 void tell(const Notes& notes) {
-  for (const std::string& note : notes) std::fprintf(stderr, "scan2fea: warning: %s\n", note.c_str());
+  for (const std::string& note : notes) warn(note);
 }
 
 void name_sets_again(MeshFile& mesh, const ConvertFlags& flags) {
@@ -122,21 +123,28 @@ Notes write_surface_with_fields(const NamedSurface& surface, const std::optional
   return write_surface(surface, flags.output, options);
 }
 
-int convert(const ConvertFlags& flags) {
-  std::vector<OutputPath> files{{flags.output}};
+int convert(ConvertFlags flags) {
+  const PipedOutput piped(flags.output, flags.formats.to);
+  std::vector<OutputPath> files;
+  if (!piped.is_pipe()) files.push_back({flags.output});
+  flags.output = piped.file();
+  if (flags.deck && piped.is_pipe())
+    throw WrongUsage(
+        {.what = "a deck names its mesh", .where = "--deck", .value = "-o -", .limit = {}, .advice = "-o FILE"});
   if (flags.deck) files.push_back({deck_file(flags.output, *flags.deck)});
   std::vector<std::filesystem::path> inputs{flags.input};
   inputs.insert(inputs.end(), flags.references.begin(), flags.references.end());
   require_writable(files, inputs, flags.force);
   require_usable(flags);
-  ProgressDisplay display(flags.quiet);
-  MeshFile read = read_mesh(flags.input);
+  ProgressDisplay display(flags.display);
+  display.begin("read");
+  MeshFile read = read_mesh(file_to_read(flags.input, flags.formats.from));
   for (const std::string& warning : read.warnings) tell({flags.input.string() + ": " + warning});
   tell_other_arrays(read, flags);
   const std::optional<SurfaceMesh> reference = read_reference(flags);
   settle_unit(read, flags, display);
   name_sets_again(read, flags);
-  FileOptions options{.provenance = flags.input.filename().string(),
+  FileOptions options{.provenance = name_of_input(flags.input),
                       .msh_version = flags.msh_version,
                       .element_fields = {},
                       .node_fields = {},
@@ -158,7 +166,7 @@ int convert(const ConvertFlags& flags) {
     StagedOutputs deck;
     if (flags.deck) {
       require_deck(mesh, flags);
-      deck.add(files[1].file, deck_text(mesh, flags.output, *flags.deck, options));
+      deck.add(files.back().file, deck_text(mesh, flags.output, *flags.deck, options));
     }
     tell(write_volume(mesh, flags.output, options));
     deck.commit();
@@ -169,6 +177,8 @@ int convert(const ConvertFlags& flags) {
     tell(notes);
     tell(write_surface_with_fields(boundary, reference, options, flags));
   }
+  piped.send();
+  display.finish();
   return 0;
 }
 
@@ -178,14 +188,21 @@ SubCommand add_convert(CLI::App& root) {
   const auto flags = std::make_shared<ConvertFlags>();
   CLI::App* app =
       root.add_subcommand("convert", "Between all formats; a volume mesh into a surface gives its boundary");
-  app->footer("Volume meshes: " + known_volume_formats() + "\nSurfaces: " + known_surface_formats_to_write());
+  app->group(look_group);
+  app->footer("Volume meshes: " + known_volume_formats() + "\nSurfaces: " + known_surface_formats_to_write() +
+              "\n\nExamples:\n"
+              "  scan2fea convert part.inp -o part.msh\n"
+              "  zcat part.stl.gz | scan2fea convert - --from stl -o - --to obj > part.obj");
   app->add_option("input", flags->input, "What to read")->required()->type_name("FILE");
   add_output_flag(*app, flags->output);
+  add_from_flag(*app, flags->formats.from);
+  add_to_flag(*app, flags->formats.to);
   add_force_flag(*app, flags->force);
   add_unit_flag(*app, flags->unit);
+  const OptionGroup group(*app, "What files hold");
   app->add_option("--scale", flags->scale, "Convert from one unit to another, e.g. mm:m")->type_name("FROM:TO");
   app->add_flag("--ascii", flags->ascii, "STL and PLY as text");
-  app->add_option("--set", flags->sets, "A set of the input gets another name, too: fixed=CLAMP (repeatable)")
+  app->add_option("--set", flags->sets, "A set of the input gets another name, too: fixed=CLAMP")
       ->type_name("NEW=OLD")
       ->allow_extra_args(false);
   app->add_option("--reference", flags->references,
@@ -196,7 +213,7 @@ SubCommand add_convert(CLI::App& root) {
   add_deck_flag(*app, flags->deck);
   add_msh_version_flag(*app, flags->msh_version);
   add_number_flags(*app, flags->numbering);
-  app->add_flag("--quiet", flags->quiet, "No messages but errors");
+  add_display_flags(*app, flags->display);
   return {app, [flags] { return convert(*flags); }};
 }
 

@@ -1,5 +1,6 @@
 #include "preproc/command/early_end.hpp"
 
+#include "preproc/command/console.hpp"
 #include "preproc/mesh/output_file.hpp"
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 #include <exception>
 #include <new>
 #include <pthread.h>
+#include <string>
 #include <string_view>
 #include <sys/time.h>
 #include <unistd.h>
@@ -23,8 +25,8 @@ constexpr int interrupted = 130, out_of_time = 4, without_memory = 4;
 // What a signal handler looks at.
 pthread_t main_thread;
 std::atomic<bool> is_done{false};
-bool is_terminal = false;
-std::array<char, 1024> line_when_out_of_time{};
+using Line = std::array<char, 1024>;
+Line line_when_interrupted{}, line_when_out_of_time{};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch lock-free atomics only");
 
 void say(std::string_view text) {
@@ -39,9 +41,18 @@ void end(int signal) {
   }
   if (is_done) return;
   remove_unfinished_outputs();
-  if (is_terminal) say("\r\033[K");  // the progress bar
-  say(signal == SIGALRM ? line_when_out_of_time.data() : "scan2fea: interrupted\n");
+  end_console();
+  say(signal == SIGALRM ? line_when_out_of_time.data() : line_when_interrupted.data());
   ::_exit(signal == SIGALRM ? out_of_time : interrupted);
+}
+
+// Where it is too long, nothing but its end is lost.
+void set_line(std::string_view text, Line& line) {
+  std::string whole = console_line(LineKind::error, text);
+  for (std::size_t most = text.size(); whole.size() > line.size() - 1 && most > 0;)
+    whole = console_line(LineKind::error, text.substr(0, most -= std::min<std::size_t>(most, 16)));
+  std::ranges::copy(whole, line.begin());
+  line[whole.size()] = '\0';
 }
 
 void call_end_on(int signal) {
@@ -79,7 +90,7 @@ bool is_ignored(int signal) {
 
 void end_on_interrupts() {
   main_thread = pthread_self();
-  is_terminal = isatty(STDERR_FILENO) != 0;
+  set_line("interrupted", line_when_interrupted);
   call_end_on(SIGINT);
   call_end_on(SIGTERM);
   if (!is_ignored(SIGHUP)) call_end_on(SIGHUP);  // as nohup asks for
@@ -87,10 +98,8 @@ void end_on_interrupts() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-void end_after(std::chrono::duration<double> time, const std::string& line) {
-  const std::size_t length = std::min(line.size(), line_when_out_of_time.size() - 2);
-  std::copy_n(line.begin(), length, line_when_out_of_time.begin());
-  line_when_out_of_time[length] = '\n';
+void end_after(std::chrono::duration<double> time, const std::string& text) {
+  set_line(text, line_when_out_of_time);
   call_end_on(SIGALRM);
   const auto microseconds = std::max<long>(1, std::chrono::duration_cast<std::chrono::microseconds>(time).count());
   constexpr long a_second = 1'000'000;

@@ -13,8 +13,8 @@ namespace scan2fea::command {
 // would end it without one (a pipe that nobody reads, a limit on the size of files) is an error of the write instead.
 void end_on_interrupts();
 
-// After so much time from now the process ends with exit code 4 and this line on stderr.
-void end_after(std::chrono::duration<double> time, const std::string& line);
+// After so much time from now the process ends with exit code 4 and this error on stderr.
+void end_after(std::chrono::duration<double> time, const std::string& text);
 
 // All that was to be written is in place: from here on nothing of the above ends the process.
 void ends_by_itself_now();

@@ -1,8 +1,10 @@
 #include "export/formats.hpp"
 #include "export/units.hpp"
+#include "preproc/command/console.hpp"
 #include "preproc/command/face_files.hpp"
 #include "preproc/command/figures.hpp"
 #include "preproc/command/gates_asked.hpp"
+#include "preproc/command/option_text.hpp"
 #include "preproc/command/sub_commands.hpp"
 #include "preproc/mesh/error.hpp"
 #include "preproc/surface/repair/repair.hpp"
@@ -23,11 +25,10 @@ struct FacesFlags {
 
 // A surface of any format, or the boundary of a volume mesh.
 NamedSurface read_part(CommonFlags& flags) {
-  MeshFile read = read_mesh(flags.input);
+  MeshFile read = read_mesh(file_to_read(flags.input, flags.formats.from));
   NamedSurface surface = read.is_volume() ? named_boundary(std::get<TetMesh>(read.mesh), read.warnings)
                                           : std::get<NamedSurface>(std::move(read.mesh));
-  for (const std::string& warning : read.warnings)
-    std::fprintf(stderr, "scan2fea: warning: %s: %s\n", flags.input.c_str(), warning.c_str());
+  for (const std::string& warning : read.warnings) warn(flags.input.string() + ": " + warning);
   const std::string unit = settled_unit(surface.unit, flags.unit, flags.input.string());
   if (!unit.empty()) flags.unit = unit;
   return surface;
@@ -70,12 +71,17 @@ int list_faces(FacesFlags flags) {
   std::vector<OutputPath> files = report_outputs(flags.common);
   if (flags.output) files.push_back({*flags.output});
   require_writable(files, inputs_of(flags.common), flags.common.force);
-  ProgressDisplay display(flags.common.quiet);
+  ProgressDisplay display(flags.common);
+  display.begin("read");
   NamedSurface surface = read_part(flags.common);
   SurfaceMesh& mesh = surface.mesh;
   display.line(describe_input(mesh, flags.common));
   const Json given = given_sets(surface);
+  display.expect({{"repair", 3e-6 * static_cast<double>(mesh.triangles.size())},
+                  {"faces", 5e-5 * static_cast<double>(mesh.triangles.size())}});
+  display.begin("repair");
   repair(mesh, flags.repair, display.progress());
+  display.begin("faces");
   const SurfaceFaces faces = find_faces(mesh, flags.simplify.features, display.progress());
 
   StagedOutputs outputs;
@@ -94,15 +100,16 @@ int list_faces(FacesFlags flags) {
   report["gates"] = Json::array();
   surface = {
       .mesh = std::move(mesh), .node_sets = {}, .face_sets = sets_of(faces), .unit = flags.common.unit.value_or("")};
-  const std::vector<GateResult> results = finish_report(
-      report, subject_of(surface.mesh, surface.face_sets, flags.common), flags.common, gates, outputs);
+  const std::vector<GateResult> results =
+      finish_report(report, subject_of(surface.mesh, surface.face_sets, flags.common), flags.common, gates, outputs);
   const bool passed = all_pass(results);
   if (flags.output && passed)
     for (const std::string& note : write_face_file(surface, faces, *flags.output, outputs))
-      display.line("warning: " + note);
+      if (!flags.common.quiet) warn(note);
   if (!flags.common.quiet && flags.common.json != "-" && flags.common.junit != "-") write_to_stdout(table);
   tell_failures(results, flags.common.input);
   outputs.commit();
+  display.finish();
   return passed ? 0 : 1;
 }
 
@@ -111,7 +118,12 @@ int list_faces(FacesFlags flags) {
 SubCommand add_faces(CLI::App& root) {
   const auto flags = std::make_shared<FacesFlags>();
   CLI::App* app = root.add_subcommand("faces", "The faces of a part: names for --set, what each is, figures, areas");
+  app->group(look_group);
+  app->footer(
+      "Examples:\n"
+      "  scan2fea faces part.stl -o faces.vtu");
   add_common_flags(*app, flags->common);
+  const OptionGroup group(*app, "Files");
   app->add_option("-o,--output", flags->output, "Write the surface with the number of each triangle's face")
       ->type_name("FILE.ply|vtp|vtu");
   add_repair_flags(*app, flags->repair);

@@ -1,5 +1,6 @@
 #include "preproc/command/figures.hpp"
 
+#include "preproc/command/console.hpp"
 #include "preproc/command/element_figures.hpp"
 #include "preproc/command/face_files.hpp"
 #include "preproc/command/gates_asked.hpp"
@@ -20,7 +21,9 @@ Json to_json(const std::vector<StageRecord>& stages) {
   for (const StageRecord& stage : stages) {
     Json entry{{"name", stage.name}, {"seconds", stage.seconds}, {"peak_bytes", stage.peak_bytes}};
     for (const auto& [name, value] : stage.changes) entry[name] = value;
-    if (!stage.remarks.empty()) entry["remarks"] = stage.remarks;
+    std::vector<std::string> remarks = stage.warnings;
+    for (const auto& more : {stage.remarks, stage.reasons}) remarks.insert(remarks.end(), more.begin(), more.end());
+    if (!remarks.empty()) entry["remarks"] = std::move(remarks);
     list.push_back(std::move(entry));
   }
   return list;
@@ -248,11 +251,13 @@ std::vector<GateResult> finish_report(Json& report, const Subject& subject, cons
 
 bool report_figures(const Subject& subject, const CommonFlags& flags, const std::vector<Gate>& gates,
                     ProgressDisplay& display, StagedOutputs& outputs) {
+  display.begin("measure");
   Json report = measure(subject, flags);
+  if (flags.report) display.begin("report");
   const std::vector<GateResult> results = finish_report(report, subject, flags, gates, outputs);
-  // With the JSON or the XML on stdout the table goes where messages go.
+  // With the JSON, the XML or the mesh on stdout the table goes where messages go.
   if (!flags.quiet) {
-    if (flags.json == "-" || flags.junit == "-")
+    if (flags.json == "-" || flags.junit == "-" || flags.stdout_is_data)
       display.line(to_table(report));
     else
       write_to_stdout(to_table(report));
@@ -262,31 +267,14 @@ bool report_figures(const Subject& subject, const CommonFlags& flags, const std:
 }
 
 std::string describe_input(const SurfaceMesh& mesh, const CommonFlags& flags) {
-  return flags.input.string() + ": " + std::to_string(mesh.vertices.size()) + " vertices, " +
+  return shown_name(flags.input) + ": " + std::to_string(mesh.vertices.size()) + " vertices, " +
          std::to_string(mesh.triangles.size()) + " triangles, " + size_text(mesh.vertices, flags);
 }
 
 std::string describe_input(const PointCloud& cloud, const CommonFlags& flags) {
-  return flags.input.string() + ": " + std::to_string(cloud.points.size()) + " points, " +
+  return shown_name(flags.input) + ": " + std::to_string(cloud.points.size()) + " points, " +
          (cloud.left_out > 0 ? std::to_string(cloud.left_out) + " more marked as none, " : "") +
          size_text(cloud.points, flags);
-}
-
-std::string describe_stage(const StageRecord& stage) {
-  constexpr std::size_t most_remarks = 8;  // the report holds them all
-  std::string text = stage.name + ":";
-  for (const auto& [name, value] : stage.changes) {
-    char change[96];
-    std::snprintf(change, sizeof change, " %s %.6g,", name.c_str(), value);
-    text += change;
-  }
-  char seconds[32];
-  std::snprintf(seconds, sizeof seconds, " %.2f s", stage.seconds);
-  text += seconds;
-  for (std::size_t i = 0; i < std::min(stage.remarks.size(), most_remarks); ++i) text += "\n  " + stage.remarks[i];
-  if (stage.remarks.size() > most_remarks)
-    text += "\n  ... and " + std::to_string(stage.remarks.size() - most_remarks) + " more, in --json and --report";
-  return text;
 }
 
 }  // namespace scan2fea::command

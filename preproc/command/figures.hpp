@@ -54,7 +54,4 @@ std::vector<GateResult> finish_report(Json& report, const Subject& subject, cons
 std::string describe_input(const SurfaceMesh& mesh, const CommonFlags& flags);
 std::string describe_input(const PointCloud& cloud, const CommonFlags& flags);
 
-// "simplify: faces_before 96966, faces_after 12604 (0.41 s)", and its first remarks below.
-std::string describe_stage(const StageRecord& stage);
-
 }  // namespace scan2fea::command

@@ -2,6 +2,9 @@
 // field.
 #pragma once
 
+#include "preproc/command/option_values.hpp"
+#include "preproc/command/piped_files.hpp"
+#include "preproc/command/progress_display.hpp"
 #include "preproc/pipeline.hpp"
 
 #include <CLI/App.hpp>
@@ -15,8 +18,8 @@
 namespace scan2fea::command {
 
 // What every sub-command that makes or measures a mesh knows.
-struct CommonFlags {
-  std::filesystem::path input;
+struct CommonFlags : DisplayFlags {
+  std::filesystem::path input;                  // "-" is stdin
   std::optional<std::filesystem::path> json;    // "-" is stdout
   std::optional<std::filesystem::path> report;  // a folder
   bool report_pdf = false;                      // report.pdf in it, too
@@ -25,21 +28,12 @@ struct CommonFlags {
   std::vector<std::string> gates;              // names of sets, see limits.hpp
   std::optional<std::filesystem::path> junit;  // "-" is stdout
   std::optional<std::string> unit;
-  std::uint64_t seed = 1;  // of the random points by which distances are measured
-  int threads = 0;         // 0: all
-  bool force = false;      // overwrite existing outputs
-  bool quiet = false;
+  std::uint64_t seed = 1;       // of the random points by which distances are measured
+  int threads = 0;              // 0: all
+  bool force = false;           // overwrite existing outputs
+  PipeFlags formats;            // of what comes and goes through pipes
+  bool stdout_is_data = false;  // then no table of figures goes there
 };
-
-// A length in model units, or as a share of something the input tells.
-struct RelativeLength {
-  double value = 0;
-  bool relative = false;
-};
-
-// "0.5" or, with the suffix, "0.1%" (returned as 0.001) or "1.6x". Throws CLI::ValidationError.
-inline constexpr char no_suffix = 0;
-RelativeLength parse_length(const std::string& flag, const std::string& text, char suffix);
 
 // The size flags; at most one is set.
 struct SizeFlags {
@@ -59,14 +53,17 @@ struct FeatureFileFlags {
 
 void add_unit_flag(CLI::App& command, std::optional<std::string>& unit);  // its short name, whatever the user writes
 void add_common_flags(CLI::App& command, CommonFlags& flags);
+void add_figure_flags(CLI::App& command, CommonFlags& flags);  // of these
 void add_output_flag(CLI::App& command, std::filesystem::path& output);
 void add_time_limit_flag(CLI::App& command, std::optional<double>& seconds);
-void add_force_flag(CLI::App& command, bool& force);  // of all that take no common flags
+void add_force_flag(CLI::App& command, bool& force);             // of all that take no common flags
+void add_display_flags(CLI::App& command, DisplayFlags& flags);  // the same
 void add_size_flags(CLI::App& command, SizeFlags& flags);
 void add_reconstruct_flags(CLI::App& command, ReconstructOptions& options);
 void add_repair_flags(CLI::App& command, RepairOptions& options);
 void add_enrich_flags(CLI::App& command, EnrichOptions& options, std::string& domain);
 void add_simplify_flags(CLI::App& command, SimplifyOptions& options);
+void add_method_flags(CLI::App& command, SimplifyOptions& options);  // of these
 void add_feature_angle_flag(CLI::App& command, FeatureOptions& features);
 void add_set_flag(CLI::App& command, std::vector<std::string>& sets);
 void add_face_flags(CLI::App& command, bool& name_faces, std::optional<Idealise>& idealise);

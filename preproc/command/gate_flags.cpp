@@ -1,5 +1,6 @@
 #include "preproc/command/gate_flags.hpp"
 
+#include "preproc/command/option_text.hpp"
 #include "preproc/command/output_files.hpp"
 #include "quality/gate_list.hpp"
 #include "quality/limits.hpp"
@@ -16,6 +17,12 @@ std::vector<std::string> names_of_sets() {
   return {gate_sets().begin(), gate_sets().end()};
 }
 
+std::string words_of_sets() {
+  std::string words;
+  for (const std::string& name : names_of_sets()) words += (words.empty() ? "" : "|") + name;
+  return words;
+}
+
 void list_gates(const CommonFlags& flags) {
   if (!flags.json) {
     write_to_stdout(gate_list_table());
@@ -30,15 +37,15 @@ void list_gates(const CommonFlags& flags) {
 }  // namespace
 
 void add_gate_flags(CLI::App& command, CommonFlags& flags) {
-  command
-      .add_option("--require", flags.require, "Gate, e.g. \"edge_ratio.mean<=1.2\"; exit 1 where it fails (repeatable)")
+  const OptionGroup group(command, "Figures, gates and reports");
+  command.add_option("--require", flags.require, "Gate, e.g. \"edge_ratio.mean<=1.2\"; exit 1 where it fails")
       ->type_name("GATE")
       ->allow_extra_args(false);
   command
       .add_option("--gates", flags.gates,
-                  "A solver's own limits, or those of the paper, as gates; --require replaces them (repeatable)")
-      ->check(CLI::IsMember(names_of_sets(), CLI::ignore_case))
-      ->type_name("SET")
+                  "A solver's own limits, or those of the paper, as gates; --require replaces them")
+      ->check(CLI::IsMember(names_of_sets(), CLI::ignore_case).description(""))
+      ->type_name(words_of_sets())
       ->allow_extra_args(false);
   command.add_option("--junit", flags.junit, "Write the gates as JUnit XML, a test case each (- for stdout)")
       ->type_name("FILE");

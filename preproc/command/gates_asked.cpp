@@ -1,6 +1,8 @@
 #include "preproc/command/gates_asked.hpp"
 
+#include "preproc/command/console.hpp"
 #include "preproc/command/element_figures.hpp"
+#include "preproc/command/piped_files.hpp"
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/error_text.hpp"
 #include "quality/extreme_elements.hpp"
@@ -94,7 +96,7 @@ std::vector<GateResult> judge(const std::vector<Gate>& gates, const Subject& sub
 
 void tell_failures(const std::vector<GateResult>& results, const std::filesystem::path& input) {
   for (const GateResult& result : results)
-    if (!result.pass) std::fprintf(stderr, "scan2fea: %s: %s\n", input.c_str(), describe(result).c_str());
+    if (!result.pass) say(LineKind::error, shown_name(input) + ": " + describe(result));
 }
 
 }  // namespace scan2fea::command

@@ -5,13 +5,18 @@
 #include "export/units.hpp"
 #include "preproc/bodies_pipeline.hpp"
 #include "preproc/command/body_inputs.hpp"
+#include "preproc/command/console.hpp"
 #include "preproc/command/deck_needs.hpp"
 #include "preproc/command/early_end.hpp"
+#include "preproc/command/expected_stages.hpp"
 #include "preproc/command/figures.hpp"
 #include "preproc/command/gates_asked.hpp"
 #include "preproc/command/input_warnings.hpp"
+#include "preproc/command/option_text.hpp"
 #include "preproc/command/output_files.hpp"
 #include "preproc/command/quality_fields.hpp"
+#include "preproc/command/size_checks.hpp"
+#include "preproc/command/stage_words.hpp"
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/read_cloud.hpp"
 #include "preproc/mesh/read_surface.hpp"
@@ -24,11 +29,42 @@
 namespace scan2fea::command {
 namespace {
 
+ExpectedWork work_of(const Scan& scan, const std::vector<Body>& bodies) {
+  ExpectedWork work{.scan_triangles = 0, .is_of_bodies = !bodies.empty()};
+  for (const Body& body : bodies) work.scan_triangles += static_cast<double>(body.surface.triangles.size());
+  if (const auto* cloud = std::get_if<PointCloud>(&scan)) {
+    work.is_cloud = true;
+    work.scan_triangles = 2 * static_cast<double>(cloud->points.size());
+  } else if (bodies.empty()) {
+    work.scan_triangles = static_cast<double>(std::get<SurfaceMesh>(scan).triangles.size());
+  }
+  return work;
+}
+
+BoundingBox box_of(const Scan& scan, const std::vector<Body>& bodies) {
+  const auto* cloud = std::get_if<PointCloud>(&scan);
+  BoundingBox box = bounding_box(cloud != nullptr ? cloud->points : std::get<SurfaceMesh>(scan).vertices);
+  for (const Body& body : bodies) {
+    const BoundingBox more = bounding_box(body.surface.vertices);
+    box = {.low = box.low.cwiseMin(more.low), .high = box.high.cwiseMax(more.high)};
+  }
+  return box;
+}
+
 // The stages know meshes and no files; a person wants to be told which of many files failed.
 PipelineResult run_naming_input(Scan& scan, std::vector<Body> bodies, const MakeMeshJob& job, const Progress& progress,
                                 ProgressDisplay& display) {
-  const std::string input = job.common.input.string();
-  const auto tell = [&](const StageRecord& stage) { display.line(describe_stage(stage)); };
+  const std::string input = shown_name(job.common.input);
+  ExpectedWork work = work_of(scan, bodies);
+  display.expect(expected_stages(job, work));
+  const auto tell = [&](const StageRecord& stage) {
+    for (const auto& [name, value] : stage.changes)
+      if (name == "faces_after") work.triangles = value;
+    if (stage.name == "simplify") display.expect(expected_stages(job, work));
+    display.line(describe_stage(stage, display.is_verbose()));
+    if (!job.common.quiet)
+      for (const std::string& warning : stage.warnings) warn(input + ": " + warning);
+  };
   if (!bodies.empty()) return run_pipeline_of_bodies(std::move(bodies), job.joining, job.pipeline, progress, tell);
   try {
     if (const auto* cloud = std::get_if<PointCloud>(&scan)) return run_pipeline(*cloud, job.pipeline, progress, tell);
@@ -64,9 +100,8 @@ Progress limited(const Progress& progress, const MakeMeshJob& job) {
   char seconds[32];
   std::snprintf(seconds, sizeof seconds, "%.6g s", *job.time_limit);
   end_after(std::chrono::duration<double>(latest * *job.time_limit),
-            "scan2fea: " + job.common.input.string() +
-                ": the time limit ended the work before there was a valid mesh (limit: " + seconds +
-                "); try: a longer --time-limit, --effort low, or fewer triangles");
+            job.common.input.string() + ": the time limit ended the work before there was a valid mesh (limit: " +
+                seconds + "); try: a longer --time-limit, --effort low, or fewer triangles");
   const auto after = [&, start = Progress::Clock::now()](double share) {
     return start + std::chrono::duration_cast<Progress::Clock::duration>(
                        std::chrono::duration<double>(share * *job.time_limit));
@@ -78,27 +113,28 @@ void tell_what_was_left_out(const PipelineResult& result, const MakeMeshJob& job
   if (result.left_out.empty()) return;
   std::string list;
   for (const std::string& what : result.left_out) list += (list.empty() ? "" : ", ") + what;
-  std::fprintf(stderr, "scan2fea: warning: %s: the time limit left out %s\n", job.common.input.c_str(), list.c_str());
+  warn(shown_name(job.common.input) + ": the time limit left out " + list);
 }
 
 // In the formats of meshes, too, with the names that come with a surface. The unit is what the file says or the user,
 // who must not contradict one another.
 NamedScan read_file(const std::filesystem::path& input, MakeMeshJob& job) {
-  if (job.takes_clouds == TakesClouds::only) return read_cloud(input);
-  const FileFormat* format = find_format(input);
+  const std::filesystem::path file =
+      file_to_read(input, input == job.common.input ? job.common.formats.from : std::nullopt);
+  if (job.takes_clouds == TakesClouds::only) return read_cloud(file);
+  const FileFormat* format = find_format(file);
   MeshFile read;
   if (format != nullptr && format->read != read_plain_surface) {
-    read = read_mesh(input);
+    read = read_mesh(file);
     if (const auto* volume = std::get_if<TetMesh>(&read.mesh)) read.mesh = named_boundary(*volume, read.warnings);
   } else if (job.takes_clouds == TakesClouds::no) {
-    read.mesh = read_named_surface(input);
+    read.mesh = read_named_surface(file);
   } else {
-    NamedScan scan = read_named_scan(input);
+    NamedScan scan = read_named_scan(file);
     if (auto* cloud = std::get_if<PointCloud>(&scan)) return std::move(*cloud);
     read.mesh = std::get<NamedSurface>(std::move(scan));
   }
-  for (const std::string& warning : read.warnings)
-    std::fprintf(stderr, "scan2fea: warning: %s: %s\n", input.c_str(), warning.c_str());
+  for (const std::string& warning : read.warnings) warn(shown_name(input) + ": " + warning);
   auto& surface = std::get<NamedSurface>(read.mesh);
   const std::string unit = settled_unit(surface.unit, job.common.unit, input.string());
   if (!unit.empty()) job.common.unit = unit;
@@ -144,7 +180,7 @@ std::vector<Body> read_bodies(MakeMeshJob& job, const Scan& first) {
   if (job.one_body) return {};
   if (job.more_bodies.empty())
     return mesh == nullptr ? std::vector<Body>() : bodies_of_groups(*mesh, job.pipeline.given_sets);
-  std::vector<std::filesystem::path> files{job.common.input};
+  std::vector<std::filesystem::path> files{name_of_input(job.common.input)};
   files.insert(files.end(), job.more_bodies.begin(), job.more_bodies.end());
   const std::vector<std::string> names = body_names(files);
   std::vector<Body> bodies;
@@ -180,8 +216,7 @@ void describe_inputs(const Scan& scan, const std::vector<Body>& bodies, const Ma
     named.input = body.name;
     display.line(describe_input(body.surface, named));
   }
-  for (const std::string& warning : warnings_of(scan, job.common))
-    std::fprintf(stderr, "scan2fea: warning: %s: %s\n", job.common.input.c_str(), warning.c_str());
+  for (const std::string& warning : warnings_of(scan, job.common)) warn(shown_name(job.common.input) + ": " + warning);
 }
 
 void parse_sets(MakeMeshJob& job) {
@@ -219,7 +254,7 @@ void require_deck(const MakeMeshJob& job, const Scan& scan) {
 
 void require_writable_outputs(const MakeMeshJob& job) {
   std::vector<OutputPath> outputs = report_outputs(job.common);
-  outputs.push_back({job.output});
+  if (!job.common.stdout_is_data) outputs.push_back({job.output});
   if (job.deck) outputs.push_back({deck_file(job.output, *job.deck)});
   if (job.features.write) outputs.push_back({*job.features.write});
   std::vector<std::filesystem::path> inputs = inputs_of(job.common);
@@ -238,7 +273,7 @@ std::vector<ReadFile> read_files(const MakeMeshJob& job) {
 
 FileOptions file_options(const MakeMeshJob& job) {
   FileOptions options;
-  options.provenance = job.common.input.filename().string();
+  options.provenance = name_of_input(job.common.input);
   for (const std::filesystem::path& body : job.more_bodies) options.provenance += ", " + body.filename().string();
   options.msh_version = job.msh_version;
   options.set_prefix = job.numbering.set_prefix;
@@ -273,16 +308,86 @@ Notes write_result(PipelineResult& result, FileOptions options, const MakeMeshJo
   return write_surface(surface, job.output, options);
 }
 
+// The mesh goes there, and nothing else.
+void take_stdout(const PipedOutput& piped, MakeMeshJob& job) {
+  job.output = piped.file();
+  job.common.stdout_is_data = piped.is_pipe();
+  if (!piped.is_pipe()) return;
+  const char* other = job.common.json == "-"    ? "--json -"
+                      : job.common.junit == "-" ? "--junit -"
+                      : job.deck                ? "--deck, which names its mesh"
+                                                : nullptr;
+  if (other != nullptr)
+    throw WrongUsage({.what = "not with the mesh on standard output",
+                      .where = {},
+                      .value = other,
+                      .limit = {},
+                      .advice = "-o FILE"});
+}
+
+// What the flags say together, and what of it needs the names and the unit of what was read.
+void settle_options(MakeMeshJob& job) {
+  if (!job.enrich_domain.empty())
+    job.pipeline.enrich_domain = parse_selection("domain=" + job.enrich_domain, job.common.unit.value_or(""));
+  if (job.features.read) job.pipeline.simplify->given_features = read_feature_lines(*job.features.read);
+  if (job.pipeline.simplify) job.pipeline.simplify->size = job.size.target();
+  adapt_reconstruction(job);
+  if (job.enrich) job.pipeline.enrich = job.enrich_options;
+}
+
+Subject subject_of(const PipelineResult& result, const SurfaceMesh& boundary, const Scan& scan,
+                   const MakeMeshJob& job) {
+  return {.surface = result.volume_mesh ? &boundary : &result.surface,
+          .reference = &result.reference(),
+          .solid_volume = result.solid_volume,
+          .reference_is_of_bodies = !result.bodies.empty(),
+          .volume_mesh = result.volume_mesh ? &*result.volume_mesh : nullptr,
+          .stages = &result.stages,
+          .repaired = &result.repaired,
+          .cloud = std::get_if<PointCloud>(&scan),
+          .outliers = &result.outliers,
+          .bridges = &result.bridges,
+          .primitives = &result.primitives,
+          .sets = &result.sets,
+          .faces = &result.faces,
+          .bodies = &result.bodies,
+          .contacts = &result.contacts,
+          .gaps = &result.gaps,
+          .touches = &result.touches,
+          .face_sets = &result.face_sets,
+          .inputs = read_files(job),
+          .output = job.common.stdout_is_data ? "-" : job.output,
+          .first_element = first_element_of(job.output, job.numbering.numbers),
+          .element_numbers = {}};
+}
+
+void write_all(PipelineResult& result, const MakeMeshJob& job, ProgressDisplay& display, StagedOutputs& outputs) {
+  if (result.volume_mesh) result.volume_mesh->unit = job.common.unit.value_or("");
+  const FileOptions options = file_options(job);
+  if (job.deck) {
+    const std::filesystem::path file = deck_file(job.output, *job.deck);
+    outputs.add(file, deck_text(*result.volume_mesh, job.output, *job.deck, options));
+    display.line("a deck: " + file.string());
+  }
+  if (job.features.write) outputs.add(*job.features.write, text_of(result.features));
+  for (const std::string& note : write_result(result, options, job))
+    if (!job.common.quiet) warn(note);
+}
+
 }  // namespace
 
 void add_surface_flags(CLI::App& command, MakeMeshJob& job) {
   add_common_flags(command, job.common);
   add_output_flag(command, job.output);
+  add_to_flag(command, job.common.formats.to);
   add_time_limit_flag(command, job.time_limit);
   add_size_flags(command, job.size);
   add_reconstruct_flags(command, job.pipeline.reconstruct);
   add_repair_flags(command, *job.pipeline.repair);
-  command.add_flag("--enrich", job.enrich, "First add points where the scanner left too few (see scan2fea enrich)");
+  {
+    const OptionGroup group(command, "Enrichment");
+    command.add_flag("--enrich", job.enrich, "First add points where the scanner left too few (see scan2fea enrich)");
+  }
   add_enrich_flags(command, job.enrich_options, job.enrich_domain);
   add_simplify_flags(command, *job.pipeline.simplify);
   add_feature_file_flags(command, job.features);
@@ -293,74 +398,44 @@ void add_surface_flags(CLI::App& command, MakeMeshJob& job) {
 }
 
 int make_mesh(MakeMeshJob job) {
-  ProgressDisplay display(job.common.quiet);
+  ProgressDisplay display(job.common);
   const Progress progress = job.time_limit ? limited(display.progress(), job) : display.progress();
+  const PipedOutput piped(job.output, job.common.formats.to);
+  take_stdout(piped, job);
   require_known_format(job);
   require_writable_outputs(job);
   const std::vector<Gate> gates = gates_for(parse_gates(job.common), job.pipeline.tetrahedralize.has_value());
 
+  display.expect(expected_stages(job, expected_work(job)));
+  display.begin("read");
   Scan scan = read_input(job);
   if (job.one_body) add_to_one_body(job, scan);
   std::vector<Body> bodies = read_bodies(job, scan);
   parse_sets(job);
-  if (!job.enrich_domain.empty())
-    job.pipeline.enrich_domain = parse_selection("domain=" + job.enrich_domain, job.common.unit.value_or(""));
   require_deck(job, scan);
   describe_inputs(scan, bodies, job, display);
-  if (job.features.read) job.pipeline.simplify->given_features = read_feature_lines(*job.features.read);
-  if (job.pipeline.simplify) job.pipeline.simplify->size = job.size.target();
-  adapt_reconstruction(job);
-  if (job.enrich) job.pipeline.enrich = job.enrich_options;
+  settle_options(job);
+  require_lengths_within(box_of(scan, bodies), job);
   PipelineResult result = run_naming_input(scan, std::move(bodies), job, progress, display);
-
   tell_what_was_left_out(result, job);
   for (const WeakPlace& place : result.weak_places)
-    std::fprintf(stderr, "scan2fea: warning: %s: %s; a solver may refuse it\n", job.common.input.c_str(),
-                 place.describe().c_str());
+    warn(shown_name(job.common.input) + ": " + place.describe() + "; a solver may refuse it");
 
   StagedOutputs outputs;
-  const bool figures_wanted = !job.common.quiet || job.common.json || job.common.report || !gates.empty();
-  if (figures_wanted) {
+  if (!job.common.quiet || job.common.json || job.common.report || !gates.empty()) {
     // As `check` will find it in the file.
     const SurfaceMesh boundary = result.volume_mesh ? boundary_surface(*result.volume_mesh) : SurfaceMesh{};
-    const Subject subject{.surface = result.volume_mesh ? &boundary : &result.surface,
-                          .reference = &result.reference(),
-                          .solid_volume = result.solid_volume,
-                          .reference_is_of_bodies = !result.bodies.empty(),
-                          .volume_mesh = result.volume_mesh ? &*result.volume_mesh : nullptr,
-                          .stages = &result.stages,
-                          .repaired = &result.repaired,
-                          .cloud = std::get_if<PointCloud>(&scan),
-                          .outliers = &result.outliers,
-                          .bridges = &result.bridges,
-                          .primitives = &result.primitives,
-                          .sets = &result.sets,
-                          .faces = &result.faces,
-                          .bodies = &result.bodies,
-                          .contacts = &result.contacts,
-                          .gaps = &result.gaps,
-                          .touches = &result.touches,
-                          .face_sets = &result.face_sets,
-                          .inputs = read_files(job),
-                          .output = job.output,
-                          .first_element = first_element_of(job.output, job.numbering.numbers),
-                          .element_numbers = {}};
-    if (!report_figures(subject, job.common, gates, display, outputs)) {
+    if (!report_figures(subject_of(result, boundary, scan, job), job.common, gates, display, outputs)) {
       outputs.commit();
       return 1;
     }
   }
-  if (result.volume_mesh) result.volume_mesh->unit = job.common.unit.value_or("");
-  const FileOptions options = file_options(job);
-  if (job.deck) {
-    const std::filesystem::path file = deck_file(job.output, *job.deck);
-    outputs.add(file, deck_text(*result.volume_mesh, job.output, *job.deck, options));
-    display.line("a deck: " + file.string());
-  }
-  if (job.features.write) outputs.add(*job.features.write, text_of(result.features));
-  for (const std::string& note : write_result(result, options, job)) display.line("warning: " + note);
+  display.begin("write");
+  write_all(result, job, display, outputs);
   outputs.commit();
+  piped.send();
   ends_by_itself_now();
+  display.finish();
   return 0;
 }
 

@@ -1,12 +1,12 @@
 #include "preproc/command/output_files.hpp"
 
+#include "preproc/command/piped_files.hpp"
 #include "preproc/command/print_pdf.hpp"
 #include "preproc/mesh/error.hpp"
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <iostream>
 #include <unistd.h>
 
 namespace scan2fea::command {
@@ -97,11 +97,6 @@ void require_writable(const std::vector<OutputPath>& outputs, const std::vector<
                         .advice = "another name"});
   }
   for (const OutputPath& output : outputs) require_writable(output, force);
-}
-
-void write_to_stdout(const std::string& text) {
-  std::cout << text << std::flush;
-  if (!std::cout) fail("cannot write to stdout", {}, {}, {});
 }
 
 void StagedOutputs::add(const fs::path& file, const std::string& text, OutputFile::Folder folder) {

@@ -30,9 +30,6 @@ std::vector<OutputPath> report_outputs(const CommonFlags& flags);
 void require_writable(const std::vector<OutputPath>& outputs, const std::vector<std::filesystem::path>& inputs,
                       bool force);
 
-// Throws IoError where not all could be written.
-void write_to_stdout(const std::string& text);
-
 // Texts that are written, so that a full disk is known of, but not in place before `commit`.
 class StagedOutputs {
  public:

@@ -4,6 +4,7 @@
 #include "preproc/command/choice_flag.hpp"
 #include "preproc/command/flags.hpp"
 #include "preproc/command/loaded_mesh.hpp"
+#include "preproc/command/option_text.hpp"
 #include "preproc/command/output_files.hpp"
 #include "preproc/command/picture_flags.hpp"
 #include "preproc/command/progress_display.hpp"
@@ -53,7 +54,9 @@ struct PictureFlags {
   PictureSize size;
   bool edges = false;
   std::optional<std::string> unit;
-  bool force = false, quiet = false;
+  bool force = false;
+  std::optional<std::string> from;
+  DisplayFlags display;
 
   // Where nothing was said, what there is to be seen.
   std::string_view colour_by() const {
@@ -163,8 +166,9 @@ Raster drawn(const LoadedMesh& mesh, const SurfaceMesh& faces, const ElementColo
 
 int picture(const PictureFlags& flags) {
   require_usable(flags);
-  ProgressDisplay display(flags.quiet);
-  const LoadedMesh mesh = load_mesh(flags.input);
+  ProgressDisplay display(flags.display);
+  display.begin("read");
+  const LoadedMesh mesh = load_mesh(file_to_read(flags.input, flags.from));
   const std::string unit = settled_unit(mesh.unit, flags.unit, flags.input.string());
   const LoadedReference reference = flags.references.empty() ? LoadedReference() : load_references(flags.references);
   if (!flags.references.empty() && !reference.surface)
@@ -191,17 +195,27 @@ int picture(const PictureFlags& flags) {
 SubCommand add_picture(CLI::App& root) {
   const auto flags = std::make_shared<PictureFlags>();
   CLI::App* app = root.add_subcommand("picture", "Draws a mesh as a PNG: coloured, cut open, from any side");
+  app->group(look_group);
+  app->footer(
+      "Examples:\n"
+      "  scan2fea picture part.vtu -o part.png --reference scan.ply\n"
+      "  scan2fea picture part.inp -o cut.png --colour scaled-jacobian --cut y=18 --edges");
   app->add_option("input", flags->input, "What to read: a surface, or a volume mesh")->required()->type_name("FILE");
-  app->add_option("-o,--output", flags->output, "What to write")->required()->type_name("FILE.png");
+  {
+    const OptionGroup files(*app, "Files");
+    app->add_option("-o,--output", flags->output, "What to write")->required()->type_name("FILE.png");
+    add_from_flag(*app, flags->from);
+  }
   add_choice<const Colouring*>(*app, "--colour", flags->colour, choices(), "By what elements are coloured");
   app->add_option("--reference", flags->references, "What the deviation is measured from; of several bodies, each")
       ->type_name("FILE")
       ->allow_extra_args(false);
+  const OptionGroup group(*app, "What is drawn");
   add_picture_flags(*app, flags->range, flags->cut, flags->eye, flags->size);
   app->add_flag("--edges", flags->edges, "Draw the edges of the elements");
   add_unit_flag(*app, flags->unit);
   add_force_flag(*app, flags->force);
-  app->add_flag("--quiet", flags->quiet, "No messages but errors");
+  add_display_flags(*app, flags->display);
   return {app, [flags] { return picture(*flags); }};
 }
 

@@ -1,34 +1,68 @@
-// What a person sees while the command works: a bar on a terminal, plain lines elsewhere, nothing when quiet.
+// What is seen while the command works: a bar on a terminal, lines of JSON for a program, finished lines of text, or
+// nothing.
+//
+// A line of JSON, with `--progress json`, when a stage begins or has a new step, and four times a second at most:
+//   {"type": "progress", "stage": "simplify", "words": "laying triangles", "step": "shape and fit",
+//    "fraction": 0.4312, "seconds": 2.1, "seconds_left": 2.7}
+// `fraction` is of the whole run, never goes back, and is 1 in the last line of a run that came to its end; `seconds`
+// have passed, `seconds_left` is an estimate. All else on stderr is then JSON, too: {"type": "message", "text": ...},
+// "warning" and "error".
 #pragma once
 
+#include "preproc/command/run_estimate.hpp"
 #include "preproc/mesh/progress.hpp"
 
-#include <chrono>
+#include <condition_variable>
+#include <mutex>
 #include <string>
+#include <thread>
+#include <vector>
 
 namespace scan2fea::command {
 
-// Draws on stderr.
+enum class ProgressMode { automatic, off, bar, json };
+
+// That every sub-command knows.
+struct DisplayFlags {
+  bool quiet = false;    // no messages but errors
+  bool verbose = false;  // why stages came out as they did, too
+  ProgressMode progress = ProgressMode::automatic;
+};
+
 class ProgressDisplay {
  public:
-  explicit ProgressDisplay(bool quiet);
+  explicit ProgressDisplay(const DisplayFlags& flags);
   ~ProgressDisplay();
   ProgressDisplay(const ProgressDisplay&) = delete;
   ProgressDisplay& operator=(const ProgressDisplay&) = delete;
 
   Progress progress();
 
-  // One finished line, above the bar where there is one.
+  // Of the stages that are to come, what each will take, about.
+  void expect(std::vector<ExpectedStage> stages);
+  void begin(std::string_view stage);
+  void finish();  // all is done
+
+  // A finished line, unless quiet; one of detail only where these are asked for.
   void line(const std::string& text);
+  void detail(const std::string& text);
+  bool is_verbose() const { return flags_.verbose && !flags_.quiet; }
 
  private:
-  void update(std::string_view stage, double fraction);
-  void clear();
+  void step(std::string_view name);
+  void draw_until_stopped();
+  void draw(RunEstimate::State state, RunEstimate::Time now);
+  void stop();
 
-  bool quiet_;
-  bool terminal_;
-  bool bar_shown_ = false;
-  std::chrono::steady_clock::time_point last_drawn_;
+  DisplayFlags flags_;
+  ProgressMode mode_;  // never `automatic`
+  RunEstimate estimate_;
+  std::string step_;
+  RunEstimate::Time start_;
+  std::mutex mutex_;  // of what the drawing thread reads
+  std::condition_variable changed_;
+  bool has_changed_ = false, is_stopped_ = false;
+  std::thread drawing_;
 };
 
 }  // namespace scan2fea::command

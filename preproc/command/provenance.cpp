@@ -1,5 +1,7 @@
 #include "preproc/command/provenance.hpp"
 
+#include "preproc/command/piped_files.hpp"
+
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
 #include <scan2fea/version.hpp>
@@ -68,7 +70,8 @@ Json inputs_json(const std::vector<ReadFile>& files) {
   for (const ReadFile& file : files) {
     Json entry{{"role", file.role}, {"file", file.path.string()}, {"bytes", nullptr}, {"sha256", nullptr}};
     std::ifstream stream;
-    if (std::filesystem::is_regular_file(file.path)) stream.open(file.path, std::ios::binary);
+    const std::filesystem::path path = file_to_read(file.path);
+    if (std::filesystem::is_regular_file(path)) stream.open(path, std::ios::binary);
     if (stream.is_open()) {
       const Hashed hashed = hash_of(stream);
       entry["bytes"] = hashed.bytes;

@@ -8,8 +8,13 @@ SubCommand add_repair(CLI::App& root) {
   job->pipeline = {.reconstruct = {}, .repair = {}, .enrich = {}, .simplify = {}, .tetrahedralize = {}, .order = 1};
   job->pipeline.repair.emplace();
   CLI::App* app = root.add_subcommand("repair", "One stage: close, orient and clean a scanned surface");
+  app->group(stage_group);
+  app->footer(
+      "Examples:\n"
+      "  scan2fea repair scan.stl -o closed.ply");
   add_common_flags(*app, job->common);
   add_output_flag(*app, job->output);
+  add_to_flag(*app, job->common.formats.to);
   add_time_limit_flag(*app, job->time_limit);
   add_repair_flags(*app, *job->pipeline.repair);
   return {app, [job] { return make_mesh(*job); }};

@@ -24,5 +24,11 @@ SubCommand add_check(CLI::App& root);
 SubCommand add_compare(CLI::App& root);
 SubCommand add_convert(CLI::App& root);
 SubCommand add_picture(CLI::App& root);
+SubCommand add_completion(CLI::App& root);
+SubCommand add_manual(CLI::App& root);
+
+// As the help lists them.
+inline constexpr const char *chain_group = "From scan to mesh", *stage_group = "One stage of it",
+                            *look_group = "Looking and converting", *help_group = "Help";
 
 }  // namespace scan2fea::command

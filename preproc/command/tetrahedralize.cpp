@@ -10,8 +10,13 @@ SubCommand add_tetrahedralize(CLI::App& root) {
   job->pipeline.tetrahedralize.emplace();
   CLI::App* app =
       root.add_subcommand("tetrahedralize", "One stage: fill a closed surface with tetrahedra, its triangles kept");
+  app->group(stage_group);
+  app->footer(
+      "Examples:\n"
+      "  scan2fea tetrahedralize part.ply -o part.msh --order 2");
   add_common_flags(*app, job->common);
   add_output_flag(*app, job->output);
+  add_to_flag(*app, job->common.formats.to);
   add_time_limit_flag(*app, job->time_limit);
   add_effort_flag(*app, job->pipeline);
   add_tetrahedralize_flags(*app, *job->pipeline.tetrahedralize, job->pipeline.order);

@@ -1,8 +1,7 @@
 #include "preproc/command/written_file_flags.hpp"
 
 #include "preproc/command/choice_flag.hpp"
-
-#include <CLI/Validators.hpp>
+#include "preproc/command/option_values.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -10,6 +9,7 @@
 namespace scan2fea::command {
 
 void add_deck_flag(CLI::App& command, std::optional<DeckKind>& deck) {
+  const OptionGroup group(command, "What files hold");
   add_choice<DeckKind>(
       command, "--deck", deck, {{"static", DeckKind::static_analysis}, {"modal", DeckKind::modal}},
       "Also write a deck that runs, beside an .inp for CalculiX, beside a .med or .mail for Code_Aster; "
@@ -17,6 +17,7 @@ void add_deck_flag(CLI::App& command, std::optional<DeckKind>& deck) {
 }
 
 void add_number_flags(CLI::App& command, NumberFlags& flags) {
+  const OptionGroup group(command, "What files hold");
   const auto is_start_of_name = [](const std::string& text) {
     const bool fits = !text.empty() && text.size() <= 20 && std::isalpha(static_cast<unsigned char>(text.front())) &&
                       std::ranges::all_of(text, [](unsigned char c) { return std::isalnum(c) || c == '_'; });
@@ -26,7 +27,7 @@ void add_number_flags(CLI::App& command, NumberFlags& flags) {
   command.add_option("--set-prefix", flags.set_prefix, "Put before the names of all sets, as PIN_")
       ->check(CLI::Validator(is_start_of_name, ""))
       ->type_name("NAME");
-  const CLI::Range numbers(std::uint64_t{1}, std::uint64_t{1} << 40);
+  const CLI::Validator numbers = whole_between(1, std::uint64_t{1} << 40, "1");
   command
       .add_option("--first-node", flags.numbers.first_node, "Number of the first node, where the format has numbers")
       ->check(numbers)
@@ -38,8 +39,9 @@ void add_number_flags(CLI::App& command, NumberFlags& flags) {
 }
 
 void add_msh_version_flag(CLI::App& command, MshVersion& version) {
+  const OptionGroup group(command, "What files hold");
   add_choice<MshVersion>(command, "--msh-version", version, {{"2.2", MshVersion::v2_2}, {"4.1", MshVersion::v4_1}},
-                         "Of Gmsh's format, if that is what is written; 4.1 is the default");
+                         "Of Gmsh's format, if that is what is written");
 }
 
 }  // namespace scan2fea::command

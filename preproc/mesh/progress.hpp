@@ -19,11 +19,17 @@ class Progress {
   // Told before a piece of work what it is, and about how long it takes on one processor, by what is to be made of how
   // much.
   using Announce = std::function<void(std::string_view work, double processor_seconds)>;
+  // Told the name of each stage of a chain before it begins, and why one went on as it did.
+  using Begin = std::function<void(std::string_view stage)>;
+  using Explain = std::function<void(std::string_view why)>;
   using Clock = std::chrono::steady_clock;
 
   Progress() = default;
-  explicit Progress(Callback callback, Announce announce = {})
-      : callback_(std::move(callback)), announce_(std::move(announce)) {}
+  explicit Progress(Callback callback, Announce announce = {}, Begin begin = {}, Explain explain = {})
+      : callback_(std::move(callback)),
+        announce_(std::move(announce)),
+        begin_(std::move(begin)),
+        explain_(std::move(explain)) {}
 
   // The same, with an end of all work, and of what makes a valid result better; or with earlier ones.
   Progress until(Clock::time_point end) const { return until(end, end); }
@@ -65,6 +71,12 @@ class Progress {
   void announce(std::string_view work, double processor_seconds) const {
     if (announce_) announce_(work, processor_seconds);
   }
+  void begin(std::string_view stage) const {
+    if (begin_) begin_(stage);
+  }
+  void explain(std::string_view why) const {
+    if (explain_) explain_(why);
+  }
 
   // Whether time was over for anybody who asked, since `until`.
   bool ran_short() const { return ran_short_ && *ran_short_; }
@@ -78,6 +90,8 @@ class Progress {
 
   Callback callback_;
   Announce announce_;
+  Begin begin_;
+  Explain explain_;
   Clock::time_point end_ = Clock::time_point::max(), end_of_improvement_ = Clock::time_point::max();
   std::shared_ptr<bool> ran_short_;  // there is none where there is no end
 };

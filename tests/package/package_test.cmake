@@ -38,7 +38,7 @@ endfunction()
 
 function(expect_the_command prefix)
   run(${prefix}/bin/scan2fea --version)
-  if(NOT output STREQUAL "${VERSION}\n")
+  if(NOT output MATCHES "^scan2fea ${VERSION}\n")
     message(FATAL_ERROR "scan2fea --version prints ${output} and the package is of version ${VERSION}")
   endif()
   foreach(mesh part.inp part.msh)

@@ -359,6 +359,11 @@ Candidate make_surface(const PreparedScanPointer& scan, const SizingOptions& siz
   if (ways.by_shape && !plan.within_deviation && !options.may_drop_given) {
     const bool lost_shape = failed || is_far(candidate);
     if ((lost_shape || is_ill_shaped(candidate)) && is_part(scan->given)) try {
+        progress.explain("triangles of the wanted size are too large for the part" +
+                         (failed       ? ": " + candidate.failure
+                          : lost_shape ? ", which loses its shape"
+                                       : "") +
+                         "; tried with edges as short as its walls and fillets need");
         Candidate by_shape =
             make_surface_by_shape(*scan, sizing, options, effort, shape_budget(sizing.triangles, lost_shape),
                                   failed ? progress : progress.for_improvement());
@@ -368,8 +373,12 @@ Candidate make_surface(const PreparedScanPointer& scan, const SizingOptions& siz
       }
   }
   if (!failed) return candidate;
-  if (scan->has_creases()) candidate = with_fewer_creases(std::move(candidate), sizing, options, plan, progress);
+  if (scan->has_creases()) {
+    progress.explain("the lattice failed: " + candidate.failure + "; tried with fewer creases, then with none");
+    candidate = with_fewer_creases(std::move(candidate), sizing, options, plan, progress);
+  }
   if (!candidate.failure.empty() && ways.contraction) {
+    progress.explain("the lattice failed: " + candidate.failure + "; edges of the scan are contracted instead");
     Candidate contracted = by_contraction(candidate.scan, sizing, plan, progress);
     contracted.fallback_reason = std::move(candidate.failure);
     contracted.failed_at = std::move(candidate.failed_at);

@@ -1,6 +1,7 @@
 #include "preproc/surface/simplification/surface_search.hpp"
 
 #include "preproc/mesh/error.hpp"
+#include "preproc/mesh/error_text.hpp"
 #include "preproc/surface/features/feature_selection.hpp"
 #include "preproc/surface/fit/preserve_volume.hpp"
 #include "preproc/surface/kernel/clear_moves.hpp"
@@ -279,7 +280,10 @@ SurfaceSearch::Trial SurfaceSearch::judged(Candidate candidate, const Progress& 
     wanted_.longest.clear();  // of another mesh's vertices, and in these lengths already
   }
   work_ += static_cast<double>(made.candidate.faces());
-  if (made.failed()) return made;
+  if (made.failed()) {
+    progress.explain(order().verdict(made));
+    return made;
+  }
   // A bound is found first, and planes as far as it allows at the end.
   if (!wanted_.deviation || !wanted_.deviation->required) put_on_planes(made);
   if (wanted_.deviation)
@@ -292,6 +296,7 @@ SurfaceSearch::Trial SurfaceSearch::judged(Candidate candidate, const Progress& 
   const bool few = made.candidate.faces() < many_triangles && !wanted_.deviation;
   made.shape = find_shape_defects(made.candidate, few ? good_of_few_deg : good_of_many_deg);
   made.is_other_part = made.lost_creases(*scan_) && wanted_.triangles < few_triangles_of_part && !wanted_.deviation;
+  progress.explain(order().verdict(made));
   return made;
 }
 
@@ -345,6 +350,9 @@ void SurfaceSearch::bring_within(Trial& made, double share_to_yield, std::size_t
     if (scan.is_closed())
       preserve_volume_clear(surface, scan.mesh, held_lines(within.candidate.net, surface.vertices.size()));
     note_deviation(within);
+    progress.explain(std::to_string(refined.changes.patches) + " places too far from the scan were mended by " +
+                     std::to_string(refined.changes.inserted) + " vertices more; now at most " +
+                     error_text(within.candidate.largest_deviation / deviation, 3) + " times as far as is wanted");
     if (holds(within) || refined.largest_deviation > options.limit) break;
   }
   // What is only aimed at is not worth triangles that solvers warn of.
@@ -408,6 +416,8 @@ void SurfaceSearch::mend_shape(Trial& made, const Progress& progress) const {
   const MendPlacesResult result = mend_places(mesh, mended.candidate.net, scan.reference(),
                                               wanted_.deviation ? &scan.deviation_reference().tree() : nullptr,
                                               without_overlaps(bad), options, progress);
+  progress.explain(std::to_string(result.mended) + " badly shaped places were mended where they are, " +
+                   std::to_string(result.left) + " could not");
   if (result.mended == 0) return;
   if (scan.is_closed()) preserve_volume_clear(mesh, scan.mesh, held_lines(mended.candidate.net, mesh.vertices.size()));
   if (wanted_.deviation) note_deviation(mended);

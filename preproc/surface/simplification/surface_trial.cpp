@@ -1,5 +1,6 @@
 #include "preproc/surface/simplification/surface_trial.hpp"
 
+#include "preproc/mesh/error_text.hpp"
 #include "quality/triangle_measures.hpp"
 
 #include <algorithm>
@@ -72,6 +73,26 @@ bool TrialOrder::gains(const SurfaceTrial& made, const SurfaceTrial& best) const
   if (!holds(made)) return made.candidate.largest_deviation < worth_it_of_deviation * best.candidate.largest_deviation;
   if (!is_shapely(best)) return made.mean_edge_ratio < best.mean_edge_ratio;
   return made.shape.sharpest() > best.shape.sharpest() + worth_it_deg;
+}
+
+std::string TrialOrder::verdict(const SurfaceTrial& made) const {
+  const std::string surface = "the surface of " + std::to_string(made.candidate.faces()) + " triangles ";
+  if (made.failed()) return surface + "failed: " + made.candidate.failure;
+  std::string faults;
+  const auto add = [&](const std::string& fault) { faults += (faults.empty() ? "" : "; ") + fault; };
+  if (!holds(made))
+    add(error_text(made.candidate.largest_deviation / deviation->distance, 3) +
+        " times as far from the scan as is wanted");
+  if (!is_shapely(made))
+    add("its mean edge ratio is " + error_text(made.mean_edge_ratio, 3) + ", above " +
+        error_text(worst_mean_edge_ratio, 3));
+  if (made.is_other_part) add("it has none of the part's edges");
+  if (!made.shape.empty())
+    add(std::to_string(made.shape.bad.size()) + " places are badly shaped, the sharpest angle " +
+        error_text(made.shape.sharpest(), 3) + " deg");
+  if (!made.candidate.fallback_reason.empty()) add("the lattice had failed: " + made.candidate.fallback_reason);
+  if (is_accepted(made)) return surface + "is accepted" + (faults.empty() ? "" : ", though " + faults);
+  return surface + "is not accepted: " + faults;
 }
 
 }  // namespace scan2fea

@@ -6,6 +6,7 @@
 #include "preproc/surface/sizing/shorter_edges.hpp"
 
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace scan2fea {
@@ -44,6 +45,7 @@ struct TrialOrder {
   bool is_accepted(const SurfaceTrial& made) const;
   bool is_better(const SurfaceTrial& made, const SurfaceTrial& other) const;
   bool gains(const SurfaceTrial& made, const SurfaceTrial& best) const;  // by more than chance
+  std::string verdict(const SurfaceTrial& made) const;                   // why it is accepted or not, for people
 };
 
 }  // namespace scan2fea
