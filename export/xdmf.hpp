@@ -1,15 +1,17 @@
 // XDMF for DOLFINx, with its data as text in it: PART.xdmf holds the grid `Grid` of tetrahedra and PART_facets.xdmf the
 // grid `facet_tags` of the boundary's triangles, two files since meshio reads no file of two grids.
 //
-//   with XDMFFile(MPI.COMM_WORLD, "part.xdmf", "r") as file:
+//   text = XDMFFile.Encoding.ASCII
+//   with XDMFFile(MPI.COMM_WORLD, "part.xdmf", "r", encoding=text) as file:
 //       mesh = file.read_mesh(name="Grid")
 //       cells = file.read_meshtags(mesh, name="Grid")
 //   mesh.topology.create_connectivity(2, 3)
-//   with XDMFFile(MPI.COMM_WORLD, "part_facets.xdmf", "r") as file:
+//   with XDMFFile(MPI.COMM_WORLD, "part_facets.xdmf", "r", encoding=text) as file:
 //       facets = file.read_meshtags(mesh, name="facet_tags")
 //
 // A tag is a number for each combination of sets, 0 for none; the names are in the field data, as meshio has them, and
-// A+B for what is in both. Sets of nodes are attributes `node_set NAME`. The unit is an XML comment.
+// A+B for what is in both. Sets of nodes are attributes `node_set NAME`, fields of the options attributes of their names,
+// but those whose numbers stand for names. The unit is an XML comment.
 #pragma once
 
 #include "export/mesh_file.hpp"

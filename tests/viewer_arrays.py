@@ -137,6 +137,7 @@ def deviations(grid, command):
     own, points = grid.points()["deviation"], grid.coordinates()
     outside = numpy.flatnonzero(~numpy.isnan(own))
     expect(0 < len(outside) < len(own), "points inside have no deviation")
+    outside = outside[::5]  # VTK takes half a millisecond for one
     others = numpy.array([distance.EvaluateFunction(points[p]) for p in outside])
     expect(numpy.allclose(numpy.abs(own[outside]), numpy.abs(others), atol=1e-4), "its size is VTK's, whose points have 32 bits")
     clear = numpy.abs(others) > 0.02  # mm; of what is nearer, either side is right
