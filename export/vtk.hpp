@@ -15,8 +15,8 @@ namespace scan2fea {
 
 // One piece of linear (type 10) or quadratic (type 24) tetrahedra, or of triangles; arrays are appended raw,
 // little-endian, 64-bit, so coordinates round-trip exactly and ParaView maps them without parsing. Fields of the
-// options become arrays of cells and points, the first of each what viewers colour by at first; names that numbers
-// stand for, the strings `NAME_names` of the field data. Throws IoError; an existing file is then untouched. O(n).
+// options become arrays of cells and points, the first of each what viewers colour by at first; those whose numbers
+// stand for names, of whole numbers. Throws IoError; an existing file is then untouched. O(n).
 Notes write_vtu(const TetMesh& mesh, const std::filesystem::path& file, const FileOptions& options = {});
 Notes write_vtu(const NamedSurface& surface, const std::filesystem::path& file, const FileOptions& options = {});
 Notes write_vtp(const NamedSurface& surface, const std::filesystem::path& file, const FileOptions& options = {});

@@ -5,8 +5,8 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace scan2fea {
@@ -19,12 +19,13 @@ inline constexpr std::string_view vtk_node_set = "node_set ", vtk_element_set = 
                                   vtk_face_set = "face_set ";
 
 struct VtkCells {
-  std::vector<double> coordinates;                                       // three per point
-  std::vector<std::uint64_t> connectivity;                               // points of all cells
-  std::vector<std::uint64_t> offsets;                                    // where each cell ends in it
-  std::vector<std::uint64_t> types;                                      // VTK's, per cell
-  std::map<std::string, std::vector<double>> point_arrays, cell_arrays;  // those of sets
-  std::vector<std::string> other_arrays;                                 // names
+  std::vector<double> coordinates;          // three per point
+  std::vector<std::uint64_t> connectivity;  // points of all cells
+  std::vector<std::uint64_t> offsets;       // where each cell ends in it
+  std::vector<std::uint64_t> types;         // VTK's, per cell
+  // Those of sets, in the order of the file.
+  std::vector<std::pair<std::string, std::vector<double>>> point_arrays, cell_arrays;
+  std::vector<std::string> other_arrays;  // names
   std::string unit;
 };
 

@@ -6,6 +6,7 @@
 #include "preproc/mesh/unit_comment.hpp"
 
 #include <charconv>
+#include <map>
 #include <stdexcept>
 
 namespace scan2fea {
@@ -19,6 +20,7 @@ struct Grid {
   bool is_surface = false;  // PolyData
   Tag piece;
   std::map<std::string, DataArray> arrays;  // "Points", "Cells/types", "PointData/node_set A"
+  std::vector<std::string> order;           // their names as the file has them, each once
   std::string unit;
 };
 
@@ -65,6 +67,7 @@ Grid find_arrays(std::string_view text, const std::filesystem::path& file) {
       section.clear();
     } else if (tag->name == "DataArray" && !section.empty()) {
       const std::string name = section == "Points" ? section : section + "/" + tag->attribute("Name");
+      if (!grid.arrays.contains(name)) grid.order.push_back(name);
       grid.arrays[name] = {*tag, text.substr(position, text.find('<', position) - position)};
     } else if (tag->name == "AppendedData") {
       grid.storage.appended_base64 = tag->attribute("encoding", "base64") == "base64";
@@ -123,16 +126,16 @@ void add_polygons(VtkCells& cells, const Grid& grid, const std::string& section,
 }
 
 void add_set_arrays(VtkCells& cells, const Grid& grid, std::size_t first_cell, const std::filesystem::path& file) {
-  for (const auto& [key, unused] : grid.arrays) {
+  for (const std::string& key : grid.order) {
     const std::size_t slash = key.find('/');
     if (slash == std::string::npos) continue;
     const std::string section = key.substr(0, slash), name = key.substr(slash + 1);
     if (section == "PointData" && name.starts_with(vtk_node_set)) {
-      cells.point_arrays[name] = array(grid, key, file, vtk_xml::read_reals);
+      cells.point_arrays.emplace_back(name, array(grid, key, file, vtk_xml::read_reals));
     } else if (section == "CellData" && (name.starts_with(vtk_element_set) || name.starts_with(vtk_face_set))) {
       std::vector<double> values = array(grid, key, file, vtk_xml::read_reals);
       values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(std::min(first_cell, values.size())));
-      cells.cell_arrays[name] = std::move(values);
+      cells.cell_arrays.emplace_back(name, std::move(values));
     } else if (section == "PointData" || section == "CellData") {
       cells.other_arrays.push_back(name);
     }

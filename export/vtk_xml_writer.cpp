@@ -122,22 +122,6 @@ void write_comment(TextOutput& out, std::string_view text) {
   out << "<!-- " << line << " -->\n";
 }
 
-// What the numbers of fields stand for, of the whole grid: strings as VTK's readers take them, each byte a number, 0
-// at the end.
-void write_names(TextOutput& out, const FileOptions& options) {
-  for (const auto* fields : {&options.element_fields, &options.node_fields})
-    for (const Field& field : *fields) {
-      if (field.names.empty()) continue;
-      out << "<Array type=\"String\" Name=\"" << field.name << "_names\" NumberOfTuples=\"" << field.names.size()
-          << "\" format=\"ascii\">\n";
-      for (const std::string& name : field.names) {
-        for (const char c : name) out << static_cast<int>(static_cast<unsigned char>(c)) << " ";
-        out << "0\n";
-      }
-      out << "</Array>\n";
-    }
-}
-
 // `counts`: the attributes of the piece.
 void write(const std::string& type, const std::string& counts, const std::vector<Section>& sections,
            const std::string& unit, const std::filesystem::path& file, const FileOptions& options) {
@@ -150,9 +134,7 @@ void write(const std::string& type, const std::string& counts, const std::vector
     if (!unit.empty()) write_comment(out, unit_comment(unit));
     out << "<VTKFile type=\"" << type << "\" version=\"1.0\" byte_order=\""
         << (std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian")
-        << "\" header_type=\"UInt64\">\n<" << type << ">\n<FieldData>\n";
-    write_names(out, options);
-    out << "</FieldData>\n<Piece " << counts << ">\n";
+        << "\" header_type=\"UInt64\">\n<" << type << ">\n<Piece " << counts << ">\n";
     std::uint64_t offset = 0;
     for (const Section& section : sections) {
       out << "<" << section.tag;

@@ -11,6 +11,7 @@ import sys
 import tempfile
 
 try:
+    import meshio
     import numpy
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkFiltersCore import vtkImplicitPolyDataDistance
@@ -18,7 +19,7 @@ try:
     from vtkmodules.vtkIOPLY import vtkPLYReader
     from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLUnstructuredGridReader
 except ImportError:
-    print("python3-vtk9 is not installed")
+    print("python3-vtk9 or python3-meshio is not installed")
     sys.exit(77)
 
 wrong = []
@@ -47,9 +48,10 @@ class Grid:
     def points(self):
         return self.arrays(self.data.GetPointData())
 
-    def names(self, field):
-        strings = self.data.GetFieldData().GetAbstractArray(field)
-        return [strings.GetValue(i) for i in range(strings.GetNumberOfValues())]
+    # What the numbers of `face` stand for.
+    def faces(self):
+        sets = [name[len("face_set "):] for name in self.cells() if name.startswith("face_set ")]
+        return [name for name in sets if name not in ("FILLED", "ENRICHED")]
 
     # One of VTK's measures, of each cell.
     def by_vtk(self, measure):
@@ -102,7 +104,7 @@ def dihedral_angles(corners):
 def volume(command, order):
     name = f"part-{order}.vtu"
     command("run", "scan.ply", "-o", name, "--faces", "3000", "--unit", "mm", "--quiet", "--order", str(order),
-            "--set", "foot=z<3mm", "--set", "wall=plane(x<0.5)")
+            "--set", "wall=plane(x<0.5)", "--set", "foot=z<3mm")
     grid, checked = command.grid(name), command.check(name, "--reference", "scan.ply")
     cells = grid.cells()
     worst_is_the_same(cells, checked, "scaled_jacobian", {n: n for n in
@@ -119,12 +121,15 @@ def volume(command, order):
         angles = dihedral_angles(grid.coordinates()[vtk_to_numpy(grid.data.GetCells().GetConnectivityArray()).reshape(-1, 4)])
         agree(cells["min_dihedral_deg"], angles.min(axis=0), "min_dihedral_deg")
         agree(cells["max_dihedral_deg"], angles.max(axis=0), "max_dihedral_deg")
-    expect(grid.names("face_names") == ["foot", "wall"], f"faces have their names: {grid.names('face_names')}")
-    for number, face in enumerate(grid.names("face_names"), 1):
+    expect(grid.faces() == ["wall", "foot"], f"sets keep their order: {grid.faces()}")
+    for number, face in enumerate(grid.faces(), 1):
         members = cells["face_set " + face] != 0
         expect(members.any() and set(cells["face"][members]) <= {1, number}, f"elements of {face} have its number")
     expect((cells["face"] == 0).any(), "elements inside have no face")
     deviations(grid, command)
+    other = meshio.read(os.path.join(command.folder, name))
+    for array, values in cells.items():
+        expect(numpy.array_equal(other.cell_data[array][0], values), f"meshio reads {array}")
 
 
 # Signed, from the scan, of the points at the surface alone; by VTK's own distance, too.
@@ -182,7 +187,6 @@ def made_up(command):
     command("simplify", "open.ply", "-o", "closed.vtp", "--quiet", "--faces", "2000", code=0)
     command("run", "open.ply", "-o", "closed.vtu", "--quiet", "--faces", "2000")
     grid = command.grid("closed.vtu")
-    expect(grid.names("made_up_names") == ["FILLED", "ENRICHED"], "origins have their names")
     middles = numpy.array([grid.coordinates()[[grid.data.GetCell(c).GetPointId(k) for k in range(4)]].mean(axis=0)
                            for c in numpy.flatnonzero(grid.cells()["made_up"] == 1)])
     expect(len(middles) > 0 and (middles[:, 2] > 5).all(), "elements under the filled hole, and no others, are marked")
