@@ -72,7 +72,7 @@ std::string gate_list_table() {
 }
 
 Json gate_list_json() {
-  Json list{{"schema", report_schema}, {"figures", Json::array()}, {"sets", Json::array()}};
+  Json list{{"format", report_schema}, {"figures", Json::array()}, {"sets", Json::array()}};
   for (const NamedFigure& figure : all_figures()) {
     Json entry{{"name", figure.name}, {"meaning", meaning_of(figure)}};
     if (!figure.unit.empty()) entry["unit"] = figure.unit;

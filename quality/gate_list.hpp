@@ -11,7 +11,7 @@ namespace scan2fea {
 // A line for each figure: its name, what it is in, and what it is. Ends with a line break.
 std::string gate_list_table();
 
-// {schema, figures [{name, meaning, unit, yes_or_no}], sets [{name, gates [{name, operator, limit, of, source}]}]}; a
+// {format, figures [{name, meaning, unit, yes_or_no}], sets [{name, gates [{name, operator, limit, of, source}]}]}; a
 // unit of nothing is left out.
 Json gate_list_json();
 
