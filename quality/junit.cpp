@@ -62,7 +62,7 @@ std::string place_text(const Json& place) {
 // As it was measured, so that what fails by the last digit does not look as if it passed.
 std::string number_text(const Json& number) {
   char digits[32];
-  const auto end = std::to_chars(digits, digits + sizeof digits, number.get<double>()).ptr;
+  char* const end = std::to_chars(digits, digits + sizeof digits, number.get<double>()).ptr;
   return {digits, end};
 }
 
