@@ -1,10 +1,10 @@
 // How good each element of a mesh is, how far each node is from the scan, and where a face comes from, for viewers.
 //
 // Names are Verdict's, as VTK and PyVista write them, where Verdict has the measure: `edge_ratio`, `scaled_jacobian`,
-// and of triangles `min_angle`, `max_angle`, degrees. Of tetrahedra, whose "minimum angle" is a dihedral one there,
-// `min_dihedral_deg` and `max_dihedral_deg`. Values are those of the figures, see element_measures.hpp: of second order
-// of the curved element, and then also `jacobian_share`, the least Jacobian by its bound, as a share of the straight
-// element's: below 0 it is inside out.
+// and of triangles `min_angle`, `max_angle`, degrees. Of tetrahedra they are
+// `min_dihedral_deg` and `max_dihedral_deg`: VTK 9.1's minimum angle takes some angles for their supplements. Values
+// are those of the figures, see element_measures.hpp: of second order of the curved element, and then also
+// `jacobian_share`, the least Jacobian by its bound, as a share of the straight element's: below 0 it is inside out.
 #pragma once
 
 #include "export/mesh_file.hpp"
