@@ -360,10 +360,7 @@ Candidate make_surface(const PreparedScanPointer& scan, const SizingOptions& siz
     const bool lost_shape = failed || is_far(candidate);
     if ((lost_shape || is_ill_shaped(candidate)) && is_part(scan->given)) try {
         progress.explain("triangles of the wanted size are too large for the part" +
-                         (failed       ? ": " + candidate.failure
-                          : lost_shape ? ", which loses its shape"
-                                       : "") +
-                         "; tried with edges as short as its walls and fillets need");
+                         (failed ? ": " + candidate.failure : "") + "; tried with edges as short as its walls need");
         Candidate by_shape =
             make_surface_by_shape(*scan, sizing, options, effort, shape_budget(sizing.triangles, lost_shape),
                                   failed ? progress : progress.for_improvement());
