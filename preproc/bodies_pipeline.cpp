@@ -176,6 +176,7 @@ void BodiesPipeline::make_surfaces() {
 void BodiesPipeline::simplify_outside() {
   PipelineOptions options = options_;
   options.simplify->size = size_;
+  options.simplify->keep_planes = false;  // the borders between bodies have to stay on their lines
   options.repair.reset();
   options.tetrahedralize.reset();
   const Outside outside = outside_of(scan_);

@@ -224,7 +224,7 @@ Simplification::Simplification(const SurfaceMesh& scan, const SimplifyOptions& o
   }
   if (!options.limits.empty())
     wanted.longest = longest_edges(prepared->mesh, options.limits, longest_edge_of_part * edge);
-  PlanesOfScan planes(scan, features.noise, edge);
+  PlanesOfScan planes = options.keep_planes ? PlanesOfScan(scan, features.noise, edge) : PlanesOfScan();
   state.search.emplace(prepared, std::move(fine_creases), std::move(planes), std::move(wanted), state.options);
 }
 

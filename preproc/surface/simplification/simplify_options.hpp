@@ -65,6 +65,8 @@ struct SimplifyOptions {
   // Edges of the scan that are lines of the result besides its creases, whatever triangles they take: borders of sets.
   // For the `lattice` method; where it gives way, there are none.
   FeatureLines kept_lines;
+  // Whether what is plane on the scan is plane on the result: vertices of lines may then leave them a little.
+  bool keep_planes = true;
   CollapseOptions collapse;  // objective, placement and cost of the `collapse` method; its face count is set by `size`
 };
 
