@@ -1,4 +1,4 @@
-#include "preproc/command/run_estimate.hpp"
+#include "preproc/mesh/run_estimate.hpp"
 
 #include <gtest/gtest.h>
 

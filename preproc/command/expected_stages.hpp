@@ -2,7 +2,7 @@
 #pragma once
 
 #include "preproc/command/make_mesh.hpp"
-#include "preproc/command/run_estimate.hpp"
+#include "preproc/mesh/run_estimate.hpp"
 
 #include <optional>
 #include <vector>

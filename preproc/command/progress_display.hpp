@@ -9,8 +9,8 @@
 // "warning" and "error".
 #pragma once
 
-#include "preproc/command/run_estimate.hpp"
 #include "preproc/mesh/progress.hpp"
+#include "preproc/mesh/run_estimate.hpp"
 
 #include <condition_variable>
 #include <mutex>
