@@ -1,6 +1,7 @@
 #include "quality/junit.hpp"
 
 #include "preproc/mesh/error_text.hpp"
+#include "quality/escaped.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -27,32 +28,25 @@ std::size_t character_at(const std::string& text, std::size_t i) {
   return code < least[length] || code > 0x10FFFF || is_surrogate || code == 0xFFFE || code == 0xFFFF ? 0 : length;
 }
 
-std::string escaped(const std::string& text) {
+// In XML, where what is no character of it is a question mark, and what would end a line a space.
+std::string xml_of(const std::string& text) {
   std::string out;
   for (std::size_t i = 0; i < text.size();) {
     const std::size_t length = character_at(text, i);
     const char c = text[i];
     if (length == 0)
-      out += "?";
-    else if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
+      out += '?';
     else if (c == '\n' || c == '\t')
-      out += " ";
+      out += ' ';
     else
       out += text.substr(i, length);
     i += std::max(length, std::size_t{1});
   }
-  return out;
+  return escaped(out);
 }
 
 std::string attribute(const char* name, const std::string& value) {
-  return std::string(" ") + name + "=\"" + escaped(value) + "\"";
+  return std::string(" ") + name + "=\"" + xml_of(value) + "\"";
 }
 
 std::string place_text(const Json& place) {
@@ -87,11 +81,11 @@ std::string test_case(const Json& gate, const std::string& class_name, const std
   if (gate.contains("set")) name += " (" + gate["set"].get<std::string>() + ")";
   std::string text = "    <testcase" + attribute("name", name) + attribute("classname", class_name) +
                      attribute("file", file) + " time=\"0\">\n";
-  const std::string source = gate.contains("source") ? "\nsource: " + escaped(gate["source"].get<std::string>()) : "";
+  const std::string source = gate.contains("source") ? "\nsource: " + xml_of(gate["source"].get<std::string>()) : "";
   if (gate["pass"].get<bool>())
-    text += "      <system-out>" + escaped(outcome(gate)) + source + "</system-out>\n";
+    text += "      <system-out>" + xml_of(outcome(gate)) + source + "</system-out>\n";
   else
-    text += "      <failure type=\"gate\"" + attribute("message", outcome(gate)) + ">" + escaped(outcome(gate)) +
+    text += "      <failure type=\"gate\"" + attribute("message", outcome(gate)) + ">" + xml_of(outcome(gate)) +
             source + "</failure>\n";
   return text + "    </testcase>\n";
 }

@@ -14,6 +14,8 @@ import subprocess
 import sys
 import tempfile
 
+from expectations import expect, wrong
+
 try:
     import jsonschema
 except ImportError:
@@ -26,13 +28,6 @@ formats = {
     "scan2fea/2": "32f7bc33682e569d8f094d26ec03704aa3d03b5160602dae87d9cf171aeab045",
     "scan2fea/3": "756478214f0dbe022e285fa58727734eb02dafec2929f611e401f663247c956e",
 }
-wrong = []
-
-
-def expect(condition, what):
-    if not condition:
-        wrong.append(what)
-        print("wrong:", what)
 
 
 def expect_valid(validator, report, name):

@@ -11,19 +11,13 @@ import sys
 import tempfile
 import zlib
 
+from expectations import expect, wrong
+
 try:
     import numpy
 except ImportError:
     print("python3-numpy is not installed")
     sys.exit(77)
-
-wrong = []
-
-
-def expect(condition, what):
-    if not condition:
-        wrong.append(what)
-        print("wrong:", what)
 
 
 # Of a PNG whose rows hold differences to the left, as ours are.

@@ -11,13 +11,7 @@ import sys
 import tempfile
 import xml.etree.ElementTree as ElementTree
 
-wrong = []
-
-
-def expect(condition, what):
-    if not condition:
-        wrong.append(what)
-        print("wrong:", what)
+from expectations import expect, wrong
 
 
 def read(file):

@@ -15,6 +15,8 @@ import sys
 import tempfile
 import time
 
+from expectations import expect, wrong
+
 try:
     from selenium import webdriver
     from selenium.webdriver.common.action_chains import ActionChains
@@ -28,14 +30,6 @@ chromium, driver_program = shutil.which("chromium"), shutil.which("chromedriver"
 if not chromium or not driver_program:
     print("chromium and chromium-driver are not installed")
     sys.exit(77)
-
-wrong = []
-
-
-def expect(condition, what):
-    if not condition:
-        wrong.append(what)
-        print("wrong:", what)
 
 
 def browser(width=1280, height=900, dark=False, scripts=True):

@@ -10,6 +10,8 @@ import subprocess
 import sys
 import tempfile
 
+from expectations import expect, wrong
+
 try:
     import meshio
     import numpy
@@ -21,14 +23,6 @@ try:
 except ImportError:
     print("python3-vtk9 or python3-meshio is not installed")
     sys.exit(77)
-
-wrong = []
-
-
-def expect(condition, what):
-    if not condition:
-        wrong.append(what)
-        print("wrong:", what)
 
 
 class Grid:

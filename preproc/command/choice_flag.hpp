@@ -2,6 +2,7 @@
 #pragma once
 
 #include "preproc/command/option_text.hpp"
+#include "preproc/mesh/joined.hpp"
 
 #include <CLI/App.hpp>
 
@@ -24,9 +25,7 @@ std::vector<std::string> names_of(const Choices<Value>& choices) {
 
 template <class Value>
 std::string list_of(const Choices<Value>& choices, const std::string& between) {
-  std::string list;
-  for (const auto& choice : choices) list += (list.empty() ? "" : between) + choice.first;
-  return list;
+  return joined(names_of(choices), between);
 }
 
 // The values of an enumeration under the names that the library gives them.
@@ -39,9 +38,7 @@ Choices<Enum> named(const Enum (&values)[n]) {
 
 [[noreturn]] inline void refuse_choice(const std::string& flag, const std::string& name,
                                        const std::vector<std::string>& known) {
-  std::string list;
-  for (const std::string& one : known) list += (list.empty() ? "" : ", ") + one;
-  throw CLI::ValidationError(flag, "'" + name + "' is none of " + list + did_you_mean(name, known));
+  throw CLI::ValidationError(flag, "'" + name + "' is none of " + joined(known) + did_you_mean(name, known));
 }
 
 template <class Value>

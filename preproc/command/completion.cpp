@@ -3,6 +3,7 @@
 #include "preproc/command/piped_files.hpp"
 #include "preproc/command/sub_commands.hpp"
 #include "preproc/mesh/error.hpp"
+#include "preproc/mesh/joined.hpp"
 
 #include <algorithm>
 #include <memory>
@@ -12,23 +13,11 @@
 namespace scan2fea::command {
 namespace {
 
-std::string joined(const std::vector<std::string>& words, const std::string& between = " ") {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : between) + word;
-  return text;
-}
-
 // For a shell's single quotes.
 std::string quoted(const std::string& text) {
   std::string out = "'";
   for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return out + "'";
-}
-
-std::vector<std::string> names_of(const std::vector<const CLI::App*>& commands) {
-  std::vector<std::string> names;
-  for (const CLI::App* command : commands) names.push_back(command->get_name());
-  return names;
 }
 
 // Of the options with a value, for `case`: names, and what completes the value.
@@ -39,7 +28,7 @@ std::string bash_values(const std::vector<OptionText>& options) {
     std::string action = "none=1";
     if (option.takes_file()) action = "files=1";
     if (option.takes_folder()) action = "folders=1";
-    if (!option.choices.empty()) action = "words=" + quoted(joined(option.choices));
+    if (!option.choices.empty()) action = "words=" + quoted(joined(option.choices, " "));
     if (!option.choices.empty() && option.takes_file()) action += " files=1";
     text += "        " + joined(option.names, "|") + ") " + action + " ;;\n";
   }
@@ -54,9 +43,9 @@ std::string bash_command(const CLI::App& command) {
     if (!option.is_positional)
       names.insert(names.end(), option.names.begin(), option.names.end());
     else
-      of_files = option.choices.empty() ? "files=1" : "words=" + quoted(joined(option.choices));
+      of_files = option.choices.empty() ? "files=1" : "words=" + quoted(joined(option.choices, " "));
   }
-  return "    " + command.get_name() + ")\n      options=" + quoted(joined(names)) + "\n      case $before in\n" +
+  return "    " + command.get_name() + ")\n      options=" + quoted(joined(names, " ")) + "\n      case $before in\n" +
          bash_values(options) + "        *) " + of_files + " ;;\n      esac ;;\n";
 }
 
@@ -73,7 +62,7 @@ std::string bash(const std::vector<const CLI::App*>& commands) {
       "  fi\n"
       "  if (( COMP_CWORD == 1 )); then\n"
       "    COMPREPLY=($(compgen -W '" +
-      joined(names_of(commands)) +
+      joined(names_of(commands), " ") +
       " --help --version' -- \"$current\"))\n"
       "    return\n"
       "  fi\n"
@@ -111,7 +100,7 @@ std::string zsh_text(const std::string& text) {
 std::string zsh_value(const OptionText& option) {
   if (option.value.empty()) return "";
   std::string action = " ";
-  if (!option.choices.empty()) action = "(" + joined(option.choices) + ")";
+  if (!option.choices.empty()) action = "(" + joined(option.choices, " ") + ")";
   if (option.takes_file()) action = "_files";
   if (option.takes_folder()) action = "_files -/";
   return ":" + zsh_text(option.value) + ":" + action;
@@ -173,14 +162,14 @@ std::string fish(const std::vector<const CLI::App*>& commands) {
       const std::string of_command =
           "complete -c scan2fea -n '__fish_seen_subcommand_from " + command->get_name() + "'";
       if (option.is_positional) {
-        if (!option.choices.empty()) text += of_command + " -f -a " + fish_text(joined(option.choices)) + "\n";
+        if (!option.choices.empty()) text += of_command + " -f -a " + fish_text(joined(option.choices, " ")) + "\n";
         continue;
       }
       text += of_command;
       for (const std::string& name : option.names)
         text += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
       if (!option.value.empty()) text += option.takes_file() || option.takes_folder() ? " -r" : " -x";
-      if (!option.choices.empty()) text += " -a " + fish_text(joined(option.choices));
+      if (!option.choices.empty()) text += " -a " + fish_text(joined(option.choices, " "));
       text += " -d " + fish_text(option.text) + "\n";
     }
   return text;

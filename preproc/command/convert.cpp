@@ -14,6 +14,7 @@
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/error_text.hpp"
 #include "preproc/mesh/length_unit.hpp"
+#include "preproc/mesh/joined.hpp"
 
 namespace scan2fea::command {
 namespace {
@@ -108,12 +109,12 @@ std::optional<SurfaceMesh> read_reference(const ConvertFlags& flags) {
 }
 
 void tell_other_arrays(const MeshFile& read, const ConvertFlags& flags) {
-  std::string names;
+  std::vector<std::string> names;
   for (const std::string& name : read.other_arrays) {
     const bool is_made_again = is_quality_field(name) || (name == "deviation" && !flags.references.empty());
-    if (!is_made_again) names += (names.empty() ? "" : ", ") + name;
+    if (!is_made_again) names.push_back(name);
   }
-  if (!names.empty()) tell({flags.input.string() + ": values of points and cells are not kept: left out " + names});
+  if (!names.empty()) tell({flags.input.string() + ": values of points and cells are not kept: left out " + joined(names)});
 }
 
 Notes write_surface_with_fields(const NamedSurface& surface, const std::optional<SurfaceMesh>& reference,

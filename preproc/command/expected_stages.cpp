@@ -82,6 +82,10 @@ std::vector<ExpectedStage> expected_stages(const MakeMeshJob& job, const Expecte
   return stages;
 }
 
+std::vector<ExpectedStage> expected_faces(double scan_triangles) {
+  return {{"repair", repair_triangle * scan_triangles}, {"faces", faces_triangle * scan_triangles}};
+}
+
 std::vector<ExpectedStage> expected_measuring(const std::vector<std::filesystem::path>& files,
                                               const CommonFlags& flags) {
   double bytes = 0;

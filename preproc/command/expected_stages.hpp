@@ -23,6 +23,9 @@ ExpectedWork expected_work(const MakeMeshJob& job);
 // In the order in which they come. Where the result's triangles are known, those after simplification.
 std::vector<ExpectedStage> expected_stages(const MakeMeshJob& job, const ExpectedWork& work);
 
+// Of a scan's faces, once it is read.
+std::vector<ExpectedStage> expected_faces(double scan_triangles);
+
 // Of the sub-commands that measure what was read.
 std::vector<ExpectedStage> expected_measuring(const std::vector<std::filesystem::path>& files,
                                               const CommonFlags& flags);

@@ -1,6 +1,7 @@
 #include "export/formats.hpp"
 #include "export/units.hpp"
 #include "preproc/command/console.hpp"
+#include "preproc/command/expected_stages.hpp"
 #include "preproc/command/face_files.hpp"
 #include "preproc/command/figures.hpp"
 #include "preproc/command/gates_asked.hpp"
@@ -77,8 +78,7 @@ int list_faces(FacesFlags flags) {
   SurfaceMesh& mesh = surface.mesh;
   display.line(describe_input(mesh, flags.common));
   const Json given = given_sets(surface);
-  display.expect({{"repair", 3e-6 * static_cast<double>(mesh.triangles.size())},
-                  {"faces", 5e-5 * static_cast<double>(mesh.triangles.size())}});
+  display.expect(expected_faces(static_cast<double>(mesh.triangles.size())));
   display.begin("repair");
   repair(mesh, flags.repair, display.progress());
   display.begin("faces");

@@ -4,6 +4,7 @@
 #include "preproc/command/output_files.hpp"
 #include "quality/gate_list.hpp"
 #include "quality/limits.hpp"
+#include "preproc/mesh/joined.hpp"
 
 #include <CLI/Error.hpp>
 #include <CLI/Validators.hpp>
@@ -18,9 +19,7 @@ std::vector<std::string> names_of_sets() {
 }
 
 std::string words_of_sets() {
-  std::string words;
-  for (const std::string& name : names_of_sets()) words += (words.empty() ? "" : "|") + name;
-  return words;
+  return joined(names_of_sets(), "|");
 }
 
 void list_gates(const CommonFlags& flags) {

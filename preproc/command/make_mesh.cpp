@@ -18,6 +18,7 @@
 #include "preproc/command/size_checks.hpp"
 #include "preproc/command/stage_words.hpp"
 #include "preproc/mesh/error.hpp"
+#include "preproc/mesh/joined.hpp"
 #include "preproc/mesh/read_cloud.hpp"
 #include "preproc/mesh/read_surface.hpp"
 #include "preproc/mesh/write_surface.hpp"
@@ -111,9 +112,7 @@ Progress limited(const Progress& progress, const MakeMeshJob& job) {
 
 void tell_what_was_left_out(const PipelineResult& result, const MakeMeshJob& job) {
   if (result.left_out.empty()) return;
-  std::string list;
-  for (const std::string& what : result.left_out) list += (list.empty() ? "" : ", ") + what;
-  warn(shown_name(job.common.input) + ": the time limit left out " + list);
+  warn(shown_name(job.common.input) + ": the time limit left out " + joined(result.left_out));
 }
 
 // In the formats of meshes, too, with the names that come with a surface. The unit is what the file says or the user,

@@ -4,6 +4,7 @@
 #include "preproc/command/option_text.hpp"
 #include "preproc/command/piped_files.hpp"
 #include "preproc/command/sub_commands.hpp"
+#include "preproc/mesh/joined.hpp"
 
 #include <scan2fea/version.hpp>
 
@@ -92,9 +93,7 @@ void add_options(const std::vector<const CLI::App*>& commands, std::string& page
       if (each.option.is_repeatable) page += " May be given several times.";
       page += "\n";
       if (each.commands.size() == commands.size()) continue;
-      std::string list;
-      for (const std::string& name : each.commands) list += (list.empty() ? "" : ", ") + name;
-      page += ".br\nOf " + italic(list) + ".\n";
+      page += ".br\nOf " + italic(joined(each.commands)) + ".\n";
     }
   }
 }

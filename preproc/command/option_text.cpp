@@ -1,5 +1,7 @@
 #include "preproc/command/option_text.hpp"
 
+#include "preproc/mesh/joined.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -89,8 +91,7 @@ std::string in_lower_case(std::string text) {
 }  // namespace
 
 std::string OptionText::signature() const {
-  std::string all;
-  for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
+  const std::string all = joined(names);
   if (is_positional) return value.empty() ? all : value;
   return value.empty() ? all : all + " " + value;
 }
@@ -126,6 +127,12 @@ std::vector<const CLI::App*> sub_commands_of(const CLI::App& root) {
   return commands;
 }
 
+std::vector<std::string> names_of(const std::vector<const CLI::App*>& commands) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : commands) names.push_back(command->get_name());
+  return names;
+}
+
 // A start of a name is near, and so is one with a mistake in every third letter.
 std::vector<std::string> similar_names(const std::string& mistyped, const std::vector<std::string>& names) {
   std::vector<std::pair<std::size_t, std::string>> near;
@@ -146,8 +153,7 @@ std::vector<std::string> similar_names(const std::string& mistyped, const std::v
 }
 
 std::string did_you_mean(const std::string& mistyped, const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : similar_names(mistyped, names)) text += (text.empty() ? "" : " or ") + name;
+  const std::string text = joined(similar_names(mistyped, names), " or ");
   return text.empty() ? "" : "; did you mean " + text + "?";
 }
 

@@ -30,6 +30,7 @@ std::vector<OptionText> options_of(const CLI::App& command);
 
 // Those that are shown, in the order in which they were declared.
 std::vector<const CLI::App*> sub_commands_of(const CLI::App& root);
+std::vector<std::string> names_of(const std::vector<const CLI::App*>& commands);
 
 // Those of `names` that a mistyped one may have meant, the nearest first; empty where none is near.
 std::vector<std::string> similar_names(const std::string& mistyped, const std::vector<std::string>& names);

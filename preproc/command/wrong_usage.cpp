@@ -2,6 +2,7 @@
 
 #include "preproc/command/option_text.hpp"
 #include "preproc/mesh/error.hpp"
+#include "preproc/mesh/joined.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -19,12 +20,12 @@ std::vector<std::string> names_of(const CLI::App& command) {
 
 // Those that the user may have had in mind: "surface, simplify".
 std::string commands_with(const CLI::App& root, const std::string& option) {
-  std::string list;
+  std::vector<std::string> commands;
   for (const CLI::App* command : sub_commands_of(root)) {
     const std::vector<std::string> names = names_of(*command);
-    if (std::ranges::find(names, option) != names.end()) list += (list.empty() ? "" : ", ") + command->get_name();
+    if (std::ranges::find(names, option) != names.end()) commands.push_back(command->get_name());
   }
-  return list;
+  return joined(commands);
 }
 
 const CLI::App* parsed_command(const CLI::App& root) {
@@ -53,16 +54,13 @@ std::string missing_value(const CLI::App& command, const std::string& what) {
 }  // namespace
 
 std::string unknown_command(const CLI::App& root, const std::string& argument) {
-  std::vector<std::string> names;
-  for (const CLI::App* command : root.get_subcommands([](const CLI::App*) { return true; }))
-    names.push_back(command->get_name());
+  const std::vector<std::string> names = names_of(root.get_subcommands([](const CLI::App*) { return true; }));
   if (std::ranges::find(names, argument) != names.end()) return {};
   std::error_code ignored;
   if (argument == "-" || std::filesystem::is_regular_file(argument, ignored))
     return "there is no command '" + argument + "', which is a file; did you mean: scan2fea run " + argument +
            " -o PART.inp";
-  std::string list;
-  for (const CLI::App* command : sub_commands_of(root)) list += (list.empty() ? "" : ", ") + command->get_name();
+  const std::string list = joined(names_of(sub_commands_of(root)));
   const std::string meant = did_you_mean(argument, names);
   return "there is no command '" + argument + "'" + (meant.empty() ? "; there are: " + list : meant);
 }

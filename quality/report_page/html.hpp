@@ -1,6 +1,7 @@
 // Pieces of HTML, of texts and numbers that may be anything.
 #pragma once
 
+#include "quality/escaped.hpp"
 #include "quality/report.hpp"
 
 #include <nlohmann/json.hpp>
@@ -11,7 +12,7 @@
 
 namespace scan2fea::html {
 
-std::string escaped(std::string_view text);
+using scan2fea::escaped;
 
 // A number with so many significant digits, its exponent in words that people read: "1.2e-07", "12604", "none" for
 // null, "yes" and "no".

@@ -1,5 +1,6 @@
 #include "quality/report_page/html.hpp"
 #include "quality/report_page/page_sections.hpp"
+#include "preproc/mesh/joined.hpp"
 
 #include <set>
 
@@ -12,12 +13,6 @@ struct Status {
   const char* tone;  // good, bad or plain: words tell it, too
   std::string text;
 };
-
-std::string joined(const std::vector<std::string>& parts) {
-  std::string text;
-  for (const std::string& part : parts) text += (text.empty() ? "" : ", ") + part;
-  return text;
-}
 
 // What no mesher or solver takes.
 std::vector<std::string> faults(const Json& report) {

@@ -5,7 +5,6 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <span>
@@ -42,26 +41,25 @@ class Moments {
 
   // Through at least three points, along `side`.
   Plane plane(const Vec3& side) const {
-    const double n = static_cast<double>(count_);
-    const Vec3 mean = sum_ / n;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(outer_ / n - mean * mean.transpose());
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(covariance());
     Vec3 normal = axes.eigenvectors().col(0);
     if (normal.dot(side) < 0) normal = -normal;
-    return {about_ + mean, normal};
+    return {about_ + mean(), normal};
   }
 
   // Across the narrower direction in the plane, mean square.
   double squared_width() const {
-    const double n = static_cast<double>(count_);
-    const Vec3 mean = sum_ / n;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(outer_ / n - mean * mean.transpose(),
-                                                              Eigen::EigenvaluesOnly);
-    return axes.eigenvalues()[1];
+    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance(), Eigen::EigenvaluesOnly).eigenvalues()[1];
   }
 
   std::size_t count() const { return count_; }
 
  private:
+  Vec3 mean() const { return sum_ / static_cast<double>(count_); }
+  Eigen::Matrix3d covariance() const {
+    return outer_ / static_cast<double>(count_) - mean() * mean().transpose();
+  }
+
   Vec3 about_, sum_ = Vec3::Zero();
   Eigen::Matrix3d outer_ = Eigen::Matrix3d::Zero();
   std::size_t count_ = 0;
