@@ -13,8 +13,8 @@
 #include "preproc/command/written_file_flags.hpp"
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/error_text.hpp"
-#include "preproc/mesh/length_unit.hpp"
 #include "preproc/mesh/joined.hpp"
+#include "preproc/mesh/length_unit.hpp"
 
 namespace scan2fea::command {
 namespace {
@@ -114,7 +114,8 @@ void tell_other_arrays(const MeshFile& read, const ConvertFlags& flags) {
     const bool is_made_again = is_quality_field(name) || (name == "deviation" && !flags.references.empty());
     if (!is_made_again) names.push_back(name);
   }
-  if (!names.empty()) tell({flags.input.string() + ": values of points and cells are not kept: left out " + joined(names)});
+  if (!names.empty())
+    tell({flags.input.string() + ": values of points and cells are not kept: left out " + joined(names)});
 }
 
 Notes write_surface_with_fields(const NamedSurface& surface, const std::optional<SurfaceMesh>& reference,

@@ -2,9 +2,9 @@
 
 #include "preproc/command/option_text.hpp"
 #include "preproc/command/output_files.hpp"
+#include "preproc/mesh/joined.hpp"
 #include "quality/gate_list.hpp"
 #include "quality/limits.hpp"
-#include "preproc/mesh/joined.hpp"
 
 #include <CLI/Error.hpp>
 #include <CLI/Validators.hpp>

@@ -1,6 +1,6 @@
+#include "preproc/mesh/joined.hpp"
 #include "quality/report_page/html.hpp"
 #include "quality/report_page/page_sections.hpp"
-#include "preproc/mesh/joined.hpp"
 
 #include <set>
 

@@ -56,9 +56,7 @@ class Moments {
 
  private:
   Vec3 mean() const { return sum_ / static_cast<double>(count_); }
-  Eigen::Matrix3d covariance() const {
-    return outer_ / static_cast<double>(count_) - mean() * mean().transpose();
-  }
+  Eigen::Matrix3d covariance() const { return outer_ / static_cast<double>(count_) - mean() * mean().transpose(); }
 
   Vec3 about_, sum_ = Vec3::Zero();
   Eigen::Matrix3d outer_ = Eigen::Matrix3d::Zero();

@@ -23,9 +23,9 @@ constexpr double least_slope = 0.5;
 // as one.
 Vec3 step_by(const std::vector<Plane>& planes, const PlaneNumbers& which, const Eigen::VectorXd& heights) {
   constexpr double parallel = 0.13;  // 15 degrees
-  Eigen::MatrixX3d normals(which.size(), 3);
+  Eigen::MatrixXd normals(which.size(), 3);
   for (Eigen::Index i = 0; i < normals.rows(); ++i) normals.row(i) = planes[which[static_cast<std::size_t>(i)]].normal;
-  Eigen::JacobiSVD<Eigen::MatrixX3d> svd(normals, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  Eigen::JacobiSVD<Eigen::MatrixXd> svd(normals, Eigen::ComputeThinU | Eigen::ComputeThinV);
   svd.setThreshold(parallel);
   return svd.solve(heights);
 }
