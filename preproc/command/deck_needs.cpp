@@ -22,11 +22,15 @@ std::string joined(const std::vector<std::string>& names) {
   return names.size() > most ? text + ", ..." : text;
 }
 
-// The lowest or the highest twentieth: it is never empty, and shows how a place is written.
+// The first or the last twentieth of the longest side: it is never empty, shows how a place is written, and its border
+// asks for the least small triangles.
 std::string place_of(std::string_view set, const std::vector<Vec3>& points) {
   const BoundingBox box = bounding_box(points);
-  const double twentieth = (box.high.z() - box.low.z()) / 20;
-  return set == "fixed" ? "z<" + error_text(box.low.z() + twentieth) : "z>" + error_text(box.high.z() - twentieth);
+  Eigen::Index longest = 0;
+  const double twentieth = (box.high - box.low).maxCoeff(&longest) / 20;
+  const std::string axis(1, "xyz"[longest]);
+  return set == "fixed" ? axis + "<" + error_text(box.low[longest] + twentieth)
+                        : axis + ">" + error_text(box.high[longest] - twentieth);
 }
 
 }  // namespace
