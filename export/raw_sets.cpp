@@ -1,6 +1,7 @@
 #include "export/raw_sets.hpp"
 
 #include "export/set_names.hpp"
+#include "preproc/mesh/sorted_corners.hpp"
 
 #include <algorithm>
 #include <map>
@@ -29,11 +30,6 @@ class Index {
   const std::vector<std::uint64_t>& numbers_;
   std::vector<std::uint32_t> order_;
 };
-
-Triangle sorted(Triangle corners) {
-  std::sort(corners.begin(), corners.end());
-  return corners;
-}
 
 // Finds faces by their corners, or by element and face: those of the boundary, and those between two elements, which
 // then are added to the mesh's.

@@ -1,6 +1,7 @@
 #include "preproc/weak_places.hpp"
 
 #include "preproc/mesh/error.hpp"
+#include "preproc/mesh/numbers.hpp"
 #include "preproc/surface/kernel/adjacency.hpp"
 #include "quality/tetrahedron_measures.hpp"
 #include "quality/triangle_measures.hpp"
@@ -8,7 +9,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <span>
 
@@ -22,8 +22,6 @@ constexpr double large_edge_ratio = 10;
 // The scan is "about as sharp" up to so many times the angle that an unusable one has.
 constexpr double as_sharp = 2;
 constexpr double sharp_edge_deg = 30;  // edges that bound a corner of the part
-
-constexpr double degrees = 180 / std::numbers::pi;
 
 // The worst of both figures over all cells, and which cell it was.
 struct Worst {

@@ -1,6 +1,7 @@
 #include "quality/deviation_bound.hpp"
 
 #include "preproc/mesh/error.hpp"
+#include "preproc/mesh/numbers.hpp"
 #include "quality/face_blocks.hpp"
 
 #include <tbb/parallel_for.h>
@@ -14,7 +15,7 @@
 namespace scan2fea {
 namespace {
 
-constexpr std::size_t block_size = 512;  // fixed, so that hints, and with them ties, do not depend on threads
+constexpr std::size_t faces_of_block = 512;  // fixed, so that hints, and with them ties, do not depend on threads
 // A piece needs two cuts to lie over one candidate where it crosses between two. Every third halves the longest edge,
 // so that pieces shrink in all directions whatever lies below.
 constexpr int cuts_in_turn = 3;
@@ -22,7 +23,6 @@ constexpr int cuts_in_turn = 3;
 constexpr double nearest_cut = 0.02;
 // Of the reference's diagonal: distances below it are not told from zero, so that surfaces that coincide cost little.
 constexpr double smallest_limit = 1e-7;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Over what is known of a triangle's distance, or the limit. Parts of the other surface that are higher over it say
 // little about it, and cutting it finds them nearer.
@@ -239,8 +239,9 @@ class FaceBounder {
 OneSidedDeviation bound_side(const SurfaceMesh& from, const std::vector<std::uint32_t>& order_of_faces,
                              const DeviationReference& target, const DeviationBoundOptions& options) {
   const auto for_each_block = [](std::size_t count, const auto& body) {
-    tbb::parallel_for(std::size_t{0}, (count + block_size - 1) / block_size,
-                      [&](std::size_t block) { body(block * block_size, std::min(count, (block + 1) * block_size)); });
+    tbb::parallel_for(std::size_t{0}, (count + faces_of_block - 1) / faces_of_block, [&](std::size_t block) {
+      body(block * faces_of_block, std::min(count, (block + 1) * faces_of_block));
+    });
   };
 
   // The corners that faces share are searched once, in the order in which the leaves meet them: each is then near the

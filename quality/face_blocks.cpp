@@ -1,13 +1,13 @@
 #include "quality/face_blocks.hpp"
 
 #include "preproc/mesh/morton_code.hpp"
+#include "preproc/mesh/numbers.hpp"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
 #include <bit>
-#include <limits>
 #include <utility>
 
 namespace scan2fea {
@@ -15,7 +15,6 @@ namespace {
 
 using Range = tbb::blocked_range<std::size_t>;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double cells_per_axis = (1 << morton_bits) - 1;
 
 }  // namespace

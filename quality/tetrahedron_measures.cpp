@@ -1,5 +1,6 @@
 #include "quality/tetrahedron_measures.hpp"
 
+#include "preproc/mesh/numbers.hpp"
 #include "quality/jacobian_bound.hpp"
 #include "quality/triangle_measures.hpp"
 
@@ -12,8 +13,6 @@
 
 namespace scan2fea {
 namespace {
-
-constexpr double degrees = 180 / std::numbers::pi;
 
 // For each edge of tetrahedron_edges the two corners that are not on it.
 constexpr std::array<std::array<std::size_t, 2>, 6> opposite{{{2, 3}, {0, 3}, {1, 3}, {1, 2}, {0, 2}, {0, 1}}};

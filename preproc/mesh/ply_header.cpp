@@ -1,6 +1,7 @@
 #include "preproc/mesh/ply_header.hpp"
 
 #include "preproc/mesh/text_scanner.hpp"
+#include "preproc/mesh/truncated.hpp"
 
 #include <algorithm>
 #include <array>
@@ -135,7 +136,7 @@ PlyHeader read_ply_header(const InputFile& file) {
       line.fail(start, "not a keyword of a PLY header", quotation(keyword));
     }
   }
-  line.fail(line.position(), "the file ends inside its header", {}, {}, "exporting or copying the scan again");
+  line.fail(line.position(), "the file ends inside its header", {}, {}, truncated_advice);
 }
 
 }  // namespace scan2fea

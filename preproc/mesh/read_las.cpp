@@ -1,5 +1,6 @@
 #include "preproc/mesh/byte_order.hpp"
 #include "preproc/mesh/cloud_formats.hpp"
+#include "preproc/mesh/truncated.hpp"
 
 #include <array>
 #include <cmath>
@@ -21,8 +22,7 @@ class LasReader {
   explicit LasReader(const InputFile& file) : file_(file), bytes_(file.bytes()) {}
 
   PointCloud run() {
-    if (bytes_.size() < shortest_header)
-      file_.fail("the file ends inside its header", {}, {}, "exporting or copying the scan again");
+    if (bytes_.size() < shortest_header) file_.fail("the file ends inside its header", {}, {}, truncated_advice);
     read_header();
     PointCloud cloud;
     cloud.points.reserve(count_);
@@ -67,7 +67,7 @@ class LasReader {
     const std::uint64_t most = first_ < bytes_.size() ? (bytes_.size() - first_) / length_ : 0;
     if (count_ > most || count_ > std::numeric_limits<std::uint32_t>::max())
       file_.fail_at_byte(bytes_.data() + count_at, "the header promises more points than the file holds",
-                         std::to_string(count_), std::to_string(most), "exporting or copying the scan again");
+                         std::to_string(count_), std::to_string(most), truncated_advice);
     for (std::size_t k = 0; k < 3; ++k) {
       scale_[k] = at<double>(scale_at + 8 * k);
       offset_[k] = at<double>(offset_at + 8 * k);

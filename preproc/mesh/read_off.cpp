@@ -1,6 +1,7 @@
 #include "preproc/mesh/polygon.hpp"
 #include "preproc/mesh/surface_formats.hpp"
 #include "preproc/mesh/text_scanner.hpp"
+#include "preproc/mesh/truncated.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -42,14 +43,14 @@ std::size_t read_count(TextScanner& scanner, std::string_view of_what, std::size
       std::min<std::size_t>(scanner.bytes_left() / shortest, std::numeric_limits<std::uint32_t>::max()));
   if (count < 0 || count > most)
     scanner.fail(start, "the header promises more " + std::string(of_what) + " than the file can hold",
-                 std::to_string(count), std::to_string(most), "exporting or copying the scan again");
+                 std::to_string(count), std::to_string(most), truncated_advice);
   return static_cast<std::size_t>(count);
 }
 
 void to_row(TextScanner& scanner, std::string_view of_what, std::size_t row, std::size_t count) {
   if (!scanner.skip_space())
     scanner.fail(scanner.position(), "the file ends before its last " + std::string(of_what), std::to_string(row),
-                 std::to_string(count), "exporting or copying the scan again");
+                 std::to_string(count), truncated_advice);
 }
 
 }  // namespace

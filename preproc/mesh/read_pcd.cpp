@@ -2,6 +2,7 @@
 #include "preproc/mesh/cloud_formats.hpp"
 #include "preproc/mesh/lzf.hpp"
 #include "preproc/mesh/text_scanner.hpp"
+#include "preproc/mesh/truncated.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,8 +13,6 @@
 
 namespace scan2fea {
 namespace {
-
-constexpr const char* truncated_advice = "exporting or copying the scan again";
 
 struct Field {
   std::string name;

@@ -4,6 +4,7 @@
 #include "preproc/mesh/polygon.hpp"
 #include "preproc/mesh/surface_formats.hpp"
 #include "preproc/mesh/text_scanner.hpp"
+#include "preproc/mesh/truncated.hpp"
 
 #include <algorithm>
 #include <array>
@@ -15,8 +16,6 @@
 
 namespace scan2fea {
 namespace {
-
-constexpr const char* truncated_advice = "exporting or copying the scan again";
 
 // The body's values one after another. Two of a kind, so that `BodyReader` reads both alike; copies remember a place.
 class TextBody {

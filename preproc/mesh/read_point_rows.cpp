@@ -1,4 +1,5 @@
 #include "preproc/mesh/cloud_formats.hpp"
+#include "preproc/mesh/truncated.hpp"
 
 #include <fast_float/fast_float.h>
 
@@ -200,7 +201,7 @@ class RowReader {
     const double most = static_cast<double>((lines_.bytes_left() + 1) / shortest_row);
     if (!(*count >= 0 && *count <= most && *count == std::floor(*count)))
       file_.fail_at_line(line.data(), "the header promises more points than the file can hold", quotation(line),
-                         std::to_string(static_cast<std::size_t>(most)), "exporting or copying the scan again");
+                         std::to_string(static_cast<std::size_t>(most)), truncated_advice);
     end_block(line.data());
     promised_ = cloud_.points.size() + static_cast<std::size_t>(*count);
     return true;
@@ -209,7 +210,7 @@ class RowReader {
   void end_block(const char* at) {
     if (promised_ && *promised_ > cloud_.points.size())
       file_.fail_at_line(at, "points are missing that the header promises", std::to_string(cloud_.points.size()),
-                         std::to_string(*promised_), "exporting or copying the scan again");
+                         std::to_string(*promised_), truncated_advice);
   }
 
   // A comma between digits that blanks or semicolons part from the next number is a decimal comma.

@@ -1,10 +1,11 @@
 #include "preproc/mesh/cloud_formats.hpp"
 #include "preproc/mesh/text_scanner.hpp"
+#include "preproc/mesh/truncated.hpp"
 
 namespace scan2fea {
 namespace {
 
-constexpr std::size_t shortest_row = std::string_view("0 0 0 0\n").size();
+constexpr std::size_t shortest_ptx_row = std::string_view("0 0 0 0\n").size();
 
 Vec3 row(TextScanner& scanner, double* fourth = nullptr) {
   if (!scanner.skip_space()) scanner.fail(scanner.position(), "the file ends inside the head of a scan");
@@ -25,11 +26,10 @@ std::int64_t count(TextScanner& scanner) {
 void read_scan(TextScanner& scanner, PointCloud& cloud) {
   const char* start = scanner.position();
   const std::int64_t columns = count(scanner), rows = count(scanner);
-  const auto most = static_cast<std::int64_t>((scanner.bytes_left() + 1) / shortest_row);
+  const auto most = static_cast<std::int64_t>((scanner.bytes_left() + 1) / shortest_ptx_row);
   if (columns < 0 || rows < 0 || (columns > 0 && rows > most / columns))
     scanner.fail(start, "the header promises more points than the file can hold",
-                 std::to_string(columns) + " x " + std::to_string(rows), std::to_string(most),
-                 "exporting or copying the scan again");
+                 std::to_string(columns) + " x " + std::to_string(rows), std::to_string(most), truncated_advice);
   row(scanner);  // the scanner's place, which the matrix repeats
   for (int axis = 0; axis < 3; ++axis) row(scanner);
   Eigen::Matrix3d turn;
@@ -39,7 +39,7 @@ void read_scan(TextScanner& scanner, PointCloud& cloud) {
   for (std::int64_t i = 0; i < columns * rows; ++i, scanner.skip_line()) {
     if (!scanner.skip_space())
       scanner.fail(scanner.position(), "points are missing that the header promises", std::to_string(i),
-                   std::to_string(columns * rows), "exporting or copying the scan again");
+                   std::to_string(columns * rows), truncated_advice);
     const Vec3 p = scanner.point();
     if (p.isZero(0)) {
       ++cloud.left_out;

@@ -1,6 +1,7 @@
 #include "preproc/mesh/byte_order.hpp"
 #include "preproc/mesh/surface_formats.hpp"
 #include "preproc/mesh/text_scanner.hpp"
+#include "preproc/mesh/truncated.hpp"
 #include "preproc/mesh/vertex_welder.hpp"
 
 #include <algorithm>
@@ -48,7 +49,7 @@ SurfaceMesh read_binary(const InputFile& file) {
   const std::size_t held = (bytes.size() - header_size) / triangle_size;
   if (promised > held)
     file.fail_at_byte(bytes.data() + count_offset, "the header promises more triangles than the file holds",
-                      std::to_string(promised), std::to_string(held), "exporting or copying the scan again");
+                      std::to_string(promised), std::to_string(held), truncated_advice);
   if (promised < held)
     file.fail_at_byte(bytes.data() + count_offset, "the file holds more triangles than its header says",
                       std::to_string(held), std::to_string(promised), "exporting the scan again");
@@ -100,8 +101,7 @@ SurfaceMesh read_ascii(const InputFile& file, std::vector<NamedSet>* sets) {
                 "checking that this is an STL file");
     }
   }
-  if (inside_solid)
-    line.fail(line.position(), "the file ends before endsolid", {}, {}, "exporting or copying the scan again");
+  if (inside_solid) line.fail(line.position(), "the file ends before endsolid", {}, {}, truncated_advice);
   // One solid is the whole, whatever it is called: programs write their own name there.
   if (sets != nullptr && sets->size() == 1 && sets->front().members.size() == mesh.triangles.size()) sets->clear();
   mesh.vertices = welder.take_vertices();

@@ -1,5 +1,6 @@
 #include "preproc/volume/surface_bound.hpp"
 
+#include "preproc/mesh/numbers.hpp"
 #include "quality/tetrahedron_measures.hpp"
 #include "quality/triangle_measures.hpp"
 #include "quality/triangle_tree.hpp"
@@ -14,8 +15,6 @@
 
 namespace scan2fea {
 namespace {
-
-constexpr double degrees = 180 / std::numbers::pi;
 
 // A side of a triangle: from `tail` to `head` as the triangle turns.
 struct Side {

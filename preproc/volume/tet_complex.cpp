@@ -1,5 +1,6 @@
 #include "preproc/volume/tet_complex.hpp"
 
+#include "preproc/mesh/sorted_corners.hpp"
 #include "preproc/volume/tet_quality.hpp"
 
 #include <algorithm>
@@ -10,13 +11,6 @@ namespace scan2fea {
 namespace {
 
 constexpr Tetrahedron no_corners{no_link, no_link, no_link, no_link};
-
-Triangle sorted(Triangle t) {
-  if (t[0] > t[1]) std::swap(t[0], t[1]);
-  if (t[1] > t[2]) std::swap(t[1], t[2]);
-  if (t[0] > t[1]) std::swap(t[0], t[1]);
-  return t;
-}
 
 }  // namespace
 

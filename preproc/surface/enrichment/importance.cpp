@@ -1,18 +1,17 @@
 #include "preproc/surface/enrichment/importance.hpp"
 
 #include "preproc/mesh/median.hpp"
+#include "preproc/mesh/numbers.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <numbers>
 #include <utility>
 
 namespace scan2fea {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double pi = std::numbers::pi;
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "preproc/surface/enrichment/insertion.hpp"
 
+#include "preproc/mesh/numbers.hpp"
 #include "preproc/surface/enrichment/importance.hpp"
 #include "preproc/surface/enrichment/side_normals.hpp"
 #include "preproc/surface/enrichment/surface_walk.hpp"
@@ -9,14 +10,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace scan2fea {
 namespace {
 
 using Index = HalfedgeMesh::Index;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // A vertex asks at most this often: sectors of 90 degrees are filled by four. Where more are asked for, the surface is
 // so bent that points put into a sector are not seen in it.

@@ -24,7 +24,7 @@ constexpr double rms_of_noise = 1.5, bend_of_noise = 0.5;
 // A first plane is fitted to triangles that reach so far over the noise: by then it turns little any more.
 constexpr double reach_over_noise = 20;
 // By normals of noisy triangles: what stands up from the plane is another face.
-constexpr double least_slope = 0.2;
+constexpr double least_slope_of_side = 0.2;
 constexpr double crease = 0.87;  // cosine, 30 degrees
 
 // Moments of points about a place near them.
@@ -246,7 +246,7 @@ class Regions {
     for (const Index v : scan_.triangles[f])
       if (std::abs(plane.height(scan_.vertices[v])) > result_.tolerance) return false;
     const Vec3 side = area_vector(scan_, scan_.triangles[f]);
-    return side.dot(plane.normal) >= least_slope * side.norm();
+    return side.dot(plane.normal) >= least_slope_of_side * side.norm();
   }
 
   // What hangs together with the seed near the plane, which follows as the region grows.

@@ -1,12 +1,11 @@
 #include "preproc/surface/kernel/face_boxes.hpp"
 
+#include "preproc/mesh/numbers.hpp"
+
 #include <bit>
-#include <limits>
 
 namespace scan2fea {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 BoundingBox no_box() {
   return {Vec3::Constant(infinity), Vec3::Constant(-infinity)};

@@ -16,7 +16,7 @@ namespace scan2fea {
 namespace {
 
 // What nanoflann asks of a point cloud.
-struct Cloud {
+struct PointsUsed {
   const std::vector<Vec3>& points;
   const std::vector<std::uint32_t>& used;
 
@@ -30,7 +30,8 @@ struct Cloud {
   }
 };
 
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Cloud>, Cloud, 3, std::uint32_t>;
+using Tree =
+    nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, PointsUsed>, PointsUsed, 3, std::uint32_t>;
 
 constexpr std::size_t candidates = 8;
 // Cosine between normals; the two sides of a crease that ends inside a patch are on the same one.
@@ -54,7 +55,7 @@ void find_nearest(const std::vector<Vec3>& points, const std::vector<Vec3>& norm
                   const std::vector<std::uint32_t>& which, const std::vector<Vec3>& vertices,
                   const std::vector<Vec3>& vertex_normal, const std::vector<std::uint32_t>& used,
                   double least_agreement, double spacing, std::vector<std::uint32_t>& nearest) {
-  const Cloud cloud{vertices, used};
+  const PointsUsed cloud{vertices, used};
   const Tree tree(3, cloud, nanoflann::KDTreeSingleIndexAdaptorParams(10));
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, which.size(), 1024), [&](const auto& range) {
     std::array<std::uint32_t, candidates> index{};

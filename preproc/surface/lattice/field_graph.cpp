@@ -10,7 +10,7 @@
 namespace scan2fea {
 namespace {
 
-constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t no_node = std::numeric_limits<std::uint32_t>::max();
 // The number of nodes at which coarsening ends: so few cost nothing to solve.
 constexpr std::size_t coarse_enough = 100;
 // Cosine of 70 degrees: nodes whose normals turn more from one another are not joined.
@@ -36,7 +36,7 @@ void connect(const SurfaceMesh& mesh, GraphLevel& level) {
     for (std::size_t v = 0; v < n; ++v) level.first[v + 1] += level.first[v];
     level.neighbours.resize(level.first[n]);
     own.assign(level.first[n], 0.0F);
-    std::vector<std::uint32_t> apex(level.first[n], none);
+    std::vector<std::uint32_t> apex(level.first[n], no_node);
     std::vector<std::uint32_t> next(level.first.begin(), level.first.end() - 1);
     for (const Triangle& t : mesh.triangles)
       for (std::size_t k = 0; k < 3; ++k) {
@@ -48,7 +48,7 @@ void connect(const SurfaceMesh& mesh, GraphLevel& level) {
     for_each_block(n, [&](std::size_t first, std::size_t last) {
       for (std::size_t v = first; v < last; ++v)
         for (std::uint32_t i = level.first[v]; i < level.first[v + 1]; ++i)
-          if (apex[i] != none)
+          if (apex[i] != no_node)
             own[i] = static_cast<float>(
                 0.5 * cotangent(mesh.vertices[apex[i]], mesh.vertices[v], mesh.vertices[level.neighbours[i]]));
     });
@@ -110,7 +110,7 @@ void tie_to_features(const Anchors& anchors, GraphLevel& level) {
 // Nodes of an independent set that cannot be enlarged become the coarse nodes; the others join one of them.
 void aggregate(GraphLevel& fine, std::uint32_t& coarse_count) {
   const std::size_t n = fine.size();
-  fine.parent.assign(n, none);
+  fine.parent.assign(n, no_node);
   std::vector<bool> covered(n, false);
   coarse_count = 0;
   for (std::uint32_t i = 0; i < n; ++i) {
@@ -120,7 +120,7 @@ void aggregate(GraphLevel& fine, std::uint32_t& coarse_count) {
     covered[i] = true;
   }
   std::vector<bool> is_root(n);
-  for (std::size_t i = 0; i < n; ++i) is_root[i] = fine.parent[i] != none;
+  for (std::size_t i = 0; i < n; ++i) is_root[i] = fine.parent[i] != no_node;
   for (std::uint32_t i = 0; i < n; ++i) {
     if (is_root[i]) continue;
     float strongest = 0;
@@ -131,7 +131,7 @@ void aggregate(GraphLevel& fine, std::uint32_t& coarse_count) {
       strongest = fine.weights[e];
       fine.parent[i] = fine.parent[j];
     }
-    if (fine.parent[i] == none) fine.parent[i] = coarse_count++;
+    if (fine.parent[i] == no_node) fine.parent[i] = coarse_count++;
   }
 }
 
@@ -151,7 +151,7 @@ struct Members {
 
 void coarse_edges(const GraphLevel& fine, const Members& members, GraphLevel& coarse) {
   const std::size_t n = coarse.size();
-  std::vector<std::uint32_t> slot_of(n, none);
+  std::vector<std::uint32_t> slot_of(n, no_node);
   coarse.first.assign(1, 0);
   coarse.first.reserve(n + 1);
   for (std::uint32_t c = 0; c < n; ++c) {
@@ -160,14 +160,14 @@ void coarse_edges(const GraphLevel& fine, const Members& members, GraphLevel& co
       for (std::uint32_t e = fine.first[i]; e < fine.first[i + 1]; ++e) {
         const std::uint32_t d = fine.parent[fine.neighbours[e]];
         if (d == c) continue;
-        if (slot_of[d] == none) {
+        if (slot_of[d] == no_node) {
           slot_of[d] = static_cast<std::uint32_t>(coarse.neighbours.size());
           coarse.neighbours.push_back(d);
           coarse.weights.push_back(0);
         }
         coarse.weights[slot_of[d]] += fine.weights[e];
       }
-    for (std::size_t s = begin; s < coarse.neighbours.size(); ++s) slot_of[coarse.neighbours[s]] = none;
+    for (std::size_t s = begin; s < coarse.neighbours.size(); ++s) slot_of[coarse.neighbours[s]] = no_node;
     coarse.first.push_back(static_cast<std::uint32_t>(coarse.neighbours.size()));
   }
 }

@@ -10,7 +10,7 @@
 namespace scan2fea {
 namespace {
 
-constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t no_anchor = std::numeric_limits<std::uint32_t>::max();
 // Lattice points that may become one are at most this far apart, in edge lengths: neighbouring points of the lattice
 // are 1 apart, and a little more than half of that allows for the disagreement of the two ends.
 constexpr double farthest_join = 0.6;
@@ -63,7 +63,7 @@ void LatticeClusters::for_each_neighbour_set(std::uint32_t root, const Visit& vi
 
 bool LatticeClusters::dissolve(std::uint32_t root) {
   if (is_anchored_[root]) return false;
-  std::uint32_t nearest = none;
+  std::uint32_t nearest = no_anchor;
   double nearest_distance = std::numeric_limits<double>::infinity();
   const Vec3 here = point(root);
   for_each_neighbour_set(root, [&](std::uint32_t other) {
@@ -73,7 +73,7 @@ bool LatticeClusters::dissolve(std::uint32_t root) {
       nearest_distance = distance;
     }
   });
-  if (nearest == none) return false;
+  if (nearest == no_anchor) return false;
   // The receiver keeps its place.
   const Vec3 sum = points_[nearest];
   const double count = counts_[nearest];
@@ -86,11 +86,11 @@ bool LatticeClusters::dissolve(std::uint32_t root) {
 // All nodes of a sample, on whatever side of a feature, are one set at its place.
 void LatticeClusters::join_anchored(const std::vector<Vec3>& anchors) {
   if (anchors.empty()) return;
-  std::vector<std::uint32_t> first(anchors.size(), none);
+  std::vector<std::uint32_t> first(anchors.size(), no_anchor);
   for (std::uint32_t i = 0; i < graph_->size(); ++i) {
     const std::uint32_t sample = graph_->anchor[i];
     if (sample == no_sample) continue;
-    if (first[sample] == none) first[sample] = i;
+    if (first[sample] == no_anchor) first[sample] = i;
     const std::uint32_t root = first[sample] == i ? i : merge(find(first[sample]), i);
     points_[root] = anchors[sample];
     is_anchored_[root] = true;

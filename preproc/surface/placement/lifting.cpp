@@ -15,7 +15,7 @@ namespace {
 // Cosine of 75 degrees.
 constexpr double smallest_normal_cosine = 0.26;
 
-constexpr NameTable<Lifting, 5> names{{
+constexpr NameTable<Lifting, 5> lifting_names{{
     {Lifting::triharmonic, "triharmonic"},
     {Lifting::moving_least_squares, "mls"},
     {Lifting::modified_quadratic_shepard, "quadratic-shepard"},
@@ -141,7 +141,7 @@ double modified_quadratic_shepard(const std::vector<Height>& heights) {
 }  // namespace
 
 std::string_view name_of(Lifting lifting) {
-  return name_in(names, lifting);
+  return name_in(lifting_names, lifting);
 }
 
 double wendland(double r) {

@@ -1,5 +1,6 @@
 #include "preproc/surface/placement/place_vertex.hpp"
 
+#include "preproc/mesh/numbers.hpp"
 #include "preproc/surface/placement/nelder_mead.hpp"
 
 #include <Eigen/Core>
@@ -7,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -16,8 +16,6 @@ namespace {
 
 using Vec2 = Eigen::Vector2d;
 using Mat2 = Eigen::Matrix2d;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // The objective as a function of the two coordinates in the plane; infinite where the constraint is broken.
 class PlaneCost {

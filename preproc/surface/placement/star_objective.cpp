@@ -1,19 +1,16 @@
 #include "preproc/surface/placement/star_objective.hpp"
 
 #include "preproc/mesh/names.hpp"
+#include "preproc/mesh/numbers.hpp"
 #include "quality/triangle_measures.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 namespace scan2fea {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-constexpr NameTable<StarObjective, 5> names{{
+constexpr NameTable<StarObjective, 5> objective_names{{
     {StarObjective::shannon, "shannon"},
     {StarObjective::a_entropy, "a-entropy"},
     {StarObjective::regularised_a_entropy, "regularised-a-entropy"},
@@ -41,11 +38,11 @@ double gap_entropy(std::vector<double>& ratios, double padding) {
 }  // namespace
 
 std::string_view name_of(StarObjective objective) {
-  return name_in(names, objective);
+  return name_in(objective_names, objective);
 }
 
 std::optional<StarObjective> star_objective_named(std::string_view name) {
-  return value_in(names, name);
+  return value_in(objective_names, name);
 }
 
 double shannon_entropy(std::span<const double> ratios) {

@@ -20,7 +20,7 @@ constexpr std::size_t plane_neighbours = 7;
 // Cosine of 40 degrees.
 constexpr double same_side_cosine = 0.766;
 
-struct Plane {
+struct PlaneOfNeighbours {
   Vec3 normal = Vec3::Zero();
   double variance = std::numeric_limits<double>::infinity();  // of the distances
 };
@@ -30,8 +30,8 @@ std::span<const std::uint32_t> nearest_of(const Neighbours& neighbours, std::uin
   return list.first(std::min(list.size(), plane_neighbours));
 }
 
-Plane plane_around(const std::vector<Vec3>& points, const Neighbours& neighbours, std::uint32_t i,
-                   const std::vector<Vec3>& outwards) {
+PlaneOfNeighbours plane_around(const std::vector<Vec3>& points, const Neighbours& neighbours, std::uint32_t i,
+                               const std::vector<Vec3>& outwards) {
   const auto near = nearest_of(neighbours, i);
   if (near.size() < 3) return {};
   Vec3 sum = Vec3::Zero(), out = outwards[i];
@@ -52,9 +52,9 @@ Plane plane_around(const std::vector<Vec3>& points, const Neighbours& neighbours
 
 std::vector<Vec3> flattest_normals(const std::vector<Vec3>& points, const Neighbours& neighbours,
                                    const std::vector<Vec3>& outwards) {
-  std::vector<Plane> planes(points.size());
+  std::vector<PlaneOfNeighbours> planes(points.size());
   for (std::uint32_t i = 0; i < points.size(); ++i) planes[i] = plane_around(points, neighbours, i, outwards);
-  std::vector<Plane> best = planes;
+  std::vector<PlaneOfNeighbours> best = planes;
   for (std::uint32_t j = 0; j < points.size(); ++j)
     for (const std::uint32_t i : nearest_of(neighbours, j))
       if (planes[j].variance < best[i].variance) best[i] = planes[j];

@@ -2,6 +2,7 @@
 
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/error_text.hpp"
+#include "preproc/mesh/sorted_corners.hpp"
 #include "preproc/surface/kernel/adjacency.hpp"
 #include "preproc/surface/kernel/components.hpp"
 #include "preproc/surface/primitives/find_primitives.hpp"
@@ -36,11 +37,6 @@ void orient(const std::vector<Vec3>& points, std::vector<Triangle>& triangles) {
   for (Triangle& t : mesh.triangles)
     if (volume[of(t)] < 0) std::swap(t[1], t[2]);
   triangles = std::move(mesh.triangles);
-}
-
-Triangle sorted(Triangle t) {
-  std::ranges::sort(t);
-  return t;
 }
 
 struct Candidate {

@@ -1,5 +1,7 @@
 #include "preproc/surface/reconstruction/delaunay.hpp"
 
+#include "preproc/mesh/sorted_corners.hpp"
+
 #include <CGAL/Advancing_front_surface_reconstruction.h>
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -42,11 +44,6 @@ struct NotTooLong {
   const std::vector<double>* spacing;
   double factor;
 };
-
-Triangle sorted(Triangle t) {
-  std::ranges::sort(t);
-  return t;
-}
 
 }  // namespace
 

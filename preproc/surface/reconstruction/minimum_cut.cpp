@@ -1,5 +1,6 @@
 #include "preproc/surface/reconstruction/minimum_cut.hpp"
 
+#include "preproc/mesh/sorted_corners.hpp"
 #include "preproc/mesh/union_find.hpp"
 #include "preproc/surface/kernel/components.hpp"
 #include "preproc/surface/kernel/parallel_blocks.hpp"
@@ -18,11 +19,6 @@
 namespace scan2fea {
 namespace {
 
-// A triangle's corners, however it is turned.
-Triangle sorted(Triangle t) {
-  std::ranges::sort(t);
-  return t;
-}
 struct Hash {
   std::size_t operator()(const Triangle& t) const {
     std::uint64_t h = t[0];

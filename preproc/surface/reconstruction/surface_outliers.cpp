@@ -18,9 +18,9 @@
 namespace scan2fea {
 namespace {
 
-constexpr std::size_t about = 16;     // neighbours of a quadric: its six numbers, and enough to check them
-constexpr double of_gauss = 1.4826;   // standard deviation over median distance
-constexpr double beyond_noise = 3.5;  // one point in two thousand of Gaussian noise
+constexpr std::size_t of_quadric = 16;  // neighbours of a quadric: its six numbers, and enough to check them
+constexpr double of_gauss = 1.4826;     // standard deviation over median distance
+constexpr double beyond_noise = 3.5;    // one point in two thousand of Gaussian noise
 
 using Row = Eigen::Matrix<double, 6, 1>;
 
@@ -40,8 +40,8 @@ double distance_from_quadric(const Vec3& p, std::span<const Vec3> others) {
   const double unit = std::sqrt(axes.eigenvalues()[2]);
   if (!(unit > 0)) return 0;
   const Eigen::Matrix3d frame = axes.eigenvectors().transpose() / unit;
-  std::array<Vec3, about> at;
-  std::array<double, about> weight;
+  std::array<Vec3, of_quadric> at;
+  std::array<double, of_quadric> weight;
   for (std::size_t k = 0; k < others.size(); ++k) at[k] = frame * (others[k] - centre), weight[k] = 1;
   const Vec3 place = frame * (p - centre);
   const Row row = row_of(place);
@@ -57,7 +57,7 @@ double distance_from_quadric(const Vec3& p, std::span<const Vec3> others) {
     const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> factors(matrix);
     const Row quadric = factors.solve(right);
     distance = std::abs(place[0] - quadric.dot(row)) / std::sqrt(1 + std::max(0.0, row.dot(factors.solve(row))));
-    std::array<double, about> off;
+    std::array<double, of_quadric> off;
     for (std::size_t k = 0; k < others.size(); ++k) off[k] = std::abs(at[k][0] - quadric.dot(row_of(at[k])));
     constexpr double tukey = 4.7, least = 1e-3;
     const double freedom = std::sqrt(count / std::max(1.0, count - 6));
@@ -74,7 +74,7 @@ double distance_from_quadric(const Vec3& p, std::span<const Vec3> others) {
 class SecondLook {
  public:
   SecondLook(const SurfaceMesh& surface, const Primitives& shapes, const std::vector<Vec3>& points)
-      : surface_(surface), points_(points), found_(shapes), near_(nearest_on_surface(surface, about)) {
+      : surface_(surface), points_(points), found_(shapes), near_(nearest_on_surface(surface, of_quadric)) {
     find_places();
     find_distances();
   }
@@ -93,7 +93,7 @@ class SecondLook {
  private:
   // The vertex of the surface that a point is, or else the nearest one, and its neighbours without the point.
   struct Ring {
-    std::array<std::uint32_t, about + 1> points;
+    std::array<std::uint32_t, of_quadric + 1> points;
     std::size_t count = 0;
   };
   Ring ring(std::size_t i) const {
@@ -101,7 +101,7 @@ class SecondLook {
     const std::uint32_t v = place_[i];
     if (v != i) result.points[result.count++] = v;
     for (const std::uint32_t w : near_.of(v)) result.points[result.count++] = w;
-    result.count = std::min(result.count, about);
+    result.count = std::min(result.count, of_quadric);
     return result;
   }
 
@@ -152,7 +152,7 @@ void SecondLook::find_distances() {
   for_each_block(points_.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       const Ring near = ring(i);
-      std::array<Vec3, about> others;
+      std::array<Vec3, of_quadric> others;
       for (std::size_t k = 0; k < near.count; ++k) others[k] = points_[near.points[k]];
       constexpr std::size_t fewest = 8;
       distance_[i] = near.count < fewest ? 0 : distance_from_quadric(points_[i], {others.data(), near.count});

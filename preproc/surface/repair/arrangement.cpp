@@ -1,5 +1,7 @@
 #include "preproc/surface/repair/arrangement.hpp"
 
+#include "preproc/mesh/sorted_corners.hpp"
+
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
@@ -23,11 +25,6 @@ using Edge = std::pair<Index, Index>;  // ascending
 
 Edge edge_between(Index a, Index b) {
   return std::minmax(a, b);
-}
-
-Triangle sorted(Triangle t) {
-  std::sort(t.begin(), t.end());
-  return t;
 }
 
 // What crosses one face: vertices on it, and lines between them.

@@ -17,22 +17,22 @@ constexpr int rings = 4, sweeps = 60;
 // Of the mean area of the triangles around: less is none.
 constexpr double least_area = 0.02;
 
-struct Plane {
+struct PatchPlane {
   Vec3 point = Vec3::Zero(), normal = Vec3::Zero();  // the sum of its triangles' area vectors at first
   bool is_plane = true;
 };
 
-std::map<std::uint32_t, Plane> planes_of(const ReferenceSurface& scan) {
-  std::map<std::uint32_t, Plane> planes;
+std::map<std::uint32_t, PatchPlane> planes_of(const ReferenceSurface& scan) {
+  std::map<std::uint32_t, PatchPlane> planes;
   const auto patch = [&](const Triangle& t) { return scan.patch_of_vertex.empty() ? 0 : scan.patch_of_vertex[t[0]]; };
   for (const Triangle& t : scan.mesh.triangles) {
-    Plane& plane = planes[patch(t)];
+    PatchPlane& plane = planes[patch(t)];
     plane.normal += area_vector(scan.mesh, t);
     plane.point = scan.mesh.vertices[t[0]];
   }
   for (auto& [number, plane] : planes) plane.normal.normalize();
   for (const Triangle& t : scan.mesh.triangles) {
-    Plane& plane = planes[patch(t)];
+    PatchPlane& plane = planes[patch(t)];
     for (const std::uint32_t v : t)
       if (!(std::abs(plane.normal.dot(scan.mesh.vertices[v] - plane.point)) <= plane_of_diagonal * scan.diagonal))
         plane.is_plane = false;
@@ -53,7 +53,7 @@ class Flattening {
   std::size_t run() {
     for (std::uint32_t f = 0; f < patch_of_face_.size(); ++f)
       for (const std::uint32_t v : mesh_.triangles[f])
-        if (const Plane* plane = plane_of(f); plane != nullptr && !is_held_[v])
+        if (const PatchPlane* plane = plane_of(f); plane != nullptr && !is_held_[v])
           mesh_.vertices[v] -= plane->normal.dot(mesh_.vertices[v] - plane->point) * plane->normal;
     for (int sweep = 0; sweep < sweeps; ++sweep) {
       const std::vector<std::uint32_t> turned = turned_over();
@@ -64,7 +64,7 @@ class Flattening {
   }
 
  private:
-  const Plane* plane_of(std::uint32_t f) const {
+  const PatchPlane* plane_of(std::uint32_t f) const {
     const auto at = planes_.find(patch_of_face_[f]);
     return at != planes_.end() && at->second.is_plane ? &at->second : nullptr;
   }
@@ -73,7 +73,7 @@ class Flattening {
     std::vector<std::uint32_t> turned;
     const double edge = mean_edge_length(mesh_);
     for (std::uint32_t f = 0; f < patch_of_face_.size(); ++f) {
-      const Plane* plane = plane_of(f);
+      const PatchPlane* plane = plane_of(f);
       if (plane == nullptr) continue;
       const Triangle& t = mesh_.triangles[f];
       double longest = 0;
@@ -114,7 +114,7 @@ class Flattening {
 
   SurfaceMesh& mesh_;
   std::vector<std::uint32_t> patch_of_face_;
-  std::map<std::uint32_t, Plane> planes_;
+  std::map<std::uint32_t, PatchPlane> planes_;
   std::vector<bool> is_held_;
   VertexStars stars_;
 };

@@ -1,17 +1,15 @@
 #include "preproc/surface/simplification/shape_check.hpp"
 
+#include "preproc/mesh/numbers.hpp"
 #include "preproc/surface/kernel/adjacency.hpp"
 #include "preproc/surface/kernel/components.hpp"
 #include "quality/triangle_measures.hpp"
 #include "quality/triangle_tree.hpp"
 
 #include <cmath>
-#include <numbers>
 
 namespace scan2fea {
 namespace {
-
-constexpr double degrees = 180 / std::numbers::pi;
 
 // Across walls and between two creases less will do: elements there need not be flat.
 constexpr double least_across_wall_deg = 25, least_corner_deg = 19;

@@ -2,6 +2,7 @@
 
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/error_text.hpp"
+#include "preproc/mesh/numbers.hpp"
 #include "preproc/surface/kernel/adjacency.hpp"
 #include "preproc/surface/kernel/parallel_blocks.hpp"
 #include "preproc/surface/sizing/sizing_field.hpp"
@@ -12,13 +13,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 
 namespace scan2fea {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 // The lengths that come out of a lattice scatter about those that it is given.
 constexpr double margin = 0.85;
 // Of the other edges, so that the count is kept.

@@ -10,7 +10,7 @@ namespace scan2fea {
 namespace {
 
 // More vertices than this times the old ones: the new ones, at the end, are then ordered anew.
-constexpr double most_growth = 1.3;
+constexpr double most_growth_of_scan = 1.3;
 
 using EdgeKey = std::uint64_t;  // its two vertices, the smaller one in the upper half
 
@@ -182,7 +182,7 @@ RefinedScan refine_scan(SurfaceMesh scan, const SizingField& sizing, double limi
   std::vector<FeatureEdge> no_features;
   halve_long_edges(result.mesh, result.edge_length, no_features, limit, limit, passes);
   result.scan_vertex_at = consecutive(0, scan_vertices);
-  if (static_cast<double>(result.mesh.vertices.size()) > most_growth * static_cast<double>(scan_vertices)) {
+  if (static_cast<double>(result.mesh.vertices.size()) > most_growth_of_scan * static_cast<double>(scan_vertices)) {
     std::vector<std::uint32_t> place = order_along_curve(result.mesh, result.edge_length);
     place.resize(scan_vertices);
     result.scan_vertex_at = std::move(place);
