@@ -9,15 +9,15 @@
 namespace scan2fea {
 namespace {
 
-constexpr auto unused = std::numeric_limits<std::uint32_t>::max();
+constexpr auto not_seen = std::numeric_limits<std::uint32_t>::max();
 
 void drop_unused_vertices(SurfaceMesh& mesh) {
-  std::vector<std::uint32_t> renumbered(mesh.vertices.size(), unused);
+  std::vector<std::uint32_t> renumbered(mesh.vertices.size(), not_seen);
   for (const Triangle& t : mesh.triangles)
     for (const std::uint32_t v : t) renumbered[v] = 0;
   std::uint32_t count = 0;
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
-    if (renumbered[v] != unused) {
+    if (renumbered[v] != not_seen) {
       mesh.vertices[count] = mesh.vertices[v];
       renumbered[v] = count++;
     }
