@@ -1,6 +1,7 @@
 #include "export/raw_mesh.hpp"
 
 #include "export/raw_sets.hpp"
+#include "preproc/mesh/element_faces.hpp"
 #include "preproc/mesh/error.hpp"
 
 #include <algorithm>
@@ -127,7 +128,14 @@ TetMesh tetrahedra_of(const RawMesh& raw, NodeMap& map, const Place& place_of_el
   mesh.mid_edge_nodes.resize(mid_edges.size() / 6);
   for (std::size_t i = 0; i < mid_edges.size(); ++i) mesh.mid_edge_nodes[i / 6][i % 6] = map.index_of(mid_edges[i]);
   require_distinct(mesh, place_of_element);
-  mesh.boundary = find_boundary(mesh.tetrahedra);
+  ElementFaces faces = find_element_faces(mesh.tetrahedra);
+  if (faces.overlapping)
+    throw InvalidInput({.what = "elements lie in one another: a face is that of three, or an element is there twice",
+                        .where = place_of_element((*faces.overlapping)[0]),
+                        .value = "and " + place_of_element((*faces.overlapping)[1]),
+                        .limit = {},
+                        .advice = "leaving out elements that are there twice"});
+  mesh.boundary = std::move(faces.boundary);
   mesh.unit = raw.unit;
   return mesh;
 }

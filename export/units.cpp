@@ -35,6 +35,13 @@ std::string settled_unit(const std::string& of_file, const std::optional<std::st
   return of_user ? *of_user : known;
 }
 
+void require_same_unit(const std::string& of_mesh, const std::string& of_file, const std::string& file) {
+  const std::string mesh = length_unit(of_mesh).value_or(of_mesh), other = length_unit(of_file).value_or(of_file);
+  if (!mesh.empty() && !other.empty() && mesh != other)
+    fail("the file says that its unit is " + other, file, "the mesh is in " + mesh,
+         "scan2fea convert --scale " + other + ":" + mesh);
+}
+
 void apply_scale(MeshFile& file, const UnitScale& scale, const std::string& name) {
   std::visit(
       [&](auto& mesh) {

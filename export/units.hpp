@@ -22,6 +22,9 @@ UnitScale parse_unit_scale(const std::string& text);
 std::string settled_unit(const std::string& of_file, const std::optional<std::string>& of_user,
                          const std::string& file);
 
+// Throws WrongUsage where `file`, with which the mesh is compared, says another unit than the mesh.
+void require_same_unit(const std::string& of_mesh, const std::string& of_file, const std::string& file);
+
 // Multiplies all coordinates. Throws WrongUsage where the mesh is in another unit than the scale's.
 void apply_scale(MeshFile& mesh, const UnitScale& scale, const std::string& file);
 

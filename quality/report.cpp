@@ -95,74 +95,72 @@ std::string text(const Json& value, const char* format = "%.4f") {
   return buffer;
 }
 
-std::string row(const std::string& name, const std::string& figures) {
-  constexpr std::size_t column = 22;  // names have 18 characters at most, but those of sets
-  return "  " + name + std::string(name.size() < column ? column - name.size() : 1, ' ') + figures + "\n";
-}
-
 std::string surface_table(const Json& s) {
   const Json &ratio = s["edge_ratio"], &angle = s["min_angle_deg"], &radius = s["radius_ratio"];
   std::string table = "surface\n";
-  table += row("size", text(s["vertices"]) + " vertices, " + text(s["faces"]) + " triangles, " + text(s["degenerate"]) +
-                           " of zero area");
-  table += row("edge ratio", "mean " + text(ratio["mean"]) + ", median " + text(ratio["p50"]) + ", 95 % " +
-                                 text(ratio["p95"]) + ", 99 % " + text(ratio["p99"]) + ", max " + text(ratio["max"]));
-  table += row("angles", "smallest: mean " + text(angle["mean"], "%.2f") + ", min " + text(angle["min"], "%.2f") +
-                             "; largest " + text(s["max_angle_deg"], "%.2f") + " deg");
-  table += row("radius ratio", "mean " + text(radius["mean"]) + ", min " + text(radius["min"]));
-  table += row("closed, manifold", text(s["closed"]) + ", " + text(s["manifold"]) +
-                                       (s["oriented"].get<bool>() ? "" : " (faces are not oriented alike)"));
-  table += row("self-intersections", text(s["self_intersections"]));
-  table += row("components, genus", text(s["components"]) + ", " + text(s["genus"]));
-  table += row("unused vertices", text(s["unused_vertices"]));
+  table += table_row("size", text(s["vertices"]) + " vertices, " + text(s["faces"]) + " triangles, " +
+                                 text(s["degenerate"]) + " of zero area");
+  table +=
+      table_row("edge ratio", "mean " + text(ratio["mean"]) + ", median " + text(ratio["p50"]) + ", 95 % " +
+                                  text(ratio["p95"]) + ", 99 % " + text(ratio["p99"]) + ", max " + text(ratio["max"]));
+  table += table_row("angles", "smallest: mean " + text(angle["mean"], "%.2f") + ", min " + text(angle["min"], "%.2f") +
+                                   "; largest " + text(s["max_angle_deg"], "%.2f") + " deg");
+  table += table_row("radius ratio", "mean " + text(radius["mean"]) + ", min " + text(radius["min"]));
+  table += table_row("closed, manifold", text(s["closed"]) + ", " + text(s["manifold"]) +
+                                             (s["oriented"].get<bool>() ? "" : " (faces are not oriented alike)"));
+  table += table_row("self-intersections", text(s["self_intersections"]));
+  table += table_row("components, genus", text(s["components"]) + ", " + text(s["genus"]));
+  table += table_row("unused vertices", text(s["unused_vertices"]));
   const bool inside_out = s["volume"].is_number() && s["volume"].get<double>() < 0;
-  table += row("volume, area", text(s["volume"], "%.9g") + (inside_out ? " (normals point inwards)" : "") + ", " +
-                                   text(s["area"], "%.9g"));
+  table += table_row("volume, area", text(s["volume"], "%.9g") + (inside_out ? " (normals point inwards)" : "") + ", " +
+                                         text(s["area"], "%.9g"));
   return table;
 }
 
 std::string points_table(const Json& points) {
   const Json& p = points["farthest_point"];
   return "points of the cloud\n" +
-         row("distance from mesh", "largest " + text(points["largest_distance"], "%.6g") + ", RMS " +
-                                       text(points["rms_distance"], "%.6g") + ", of " + text(points["count"]) +
-                                       " points; the farthest at (" + text(p[0], "%.6g") + ", " + text(p[1], "%.6g") +
-                                       ", " + text(p[2], "%.6g") + ")");
+         table_row("distance from mesh", "largest " + text(points["largest_distance"], "%.6g") + ", RMS " +
+                                             text(points["rms_distance"], "%.6g") + ", of " + text(points["count"]) +
+                                             " points; the farthest at (" + text(p[0], "%.6g") + ", " +
+                                             text(p[1], "%.6g") + ", " + text(p[2], "%.6g") + ")");
 }
 
 std::string deviation_table(const Json& d) {
   std::string table = "deviation from the reference\n";
-  table += row("volume", text(d["volume_difference_pct"]) + " %");
-  table += row("area", text(d["area_difference_pct"]) + " %");
-  table += row("Hausdorff distance",
-               text(d["hausdorff_pct_diagonal"]) + " % of the diagonal, at (" + text(d["farthest_point"][0], "%.6g") +
-                   ", " + text(d["farthest_point"][1], "%.6g") + ", " + text(d["farthest_point"][2], "%.6g") + ")");
-  table += row("RMS distance", text(d["rms_pct_diagonal"], "%.5f") + " % of the diagonal");
+  table += table_row("volume", text(d["volume_difference_pct"]) + " %");
+  table += table_row("area", text(d["area_difference_pct"]) + " %");
+  table +=
+      table_row("Hausdorff distance",
+                text(d["hausdorff_pct_diagonal"]) + " % of the diagonal, at (" + text(d["farthest_point"][0], "%.6g") +
+                    ", " + text(d["farthest_point"][1], "%.6g") + ", " + text(d["farthest_point"][2], "%.6g") + ")");
+  table += table_row("RMS distance", text(d["rms_pct_diagonal"], "%.5f") + " % of the diagonal");
   for (const auto& [name, side] : {std::pair("from the mesh", "from_mesh"), {"from the reference", "from_reference"}})
-    table += row(name, "Hausdorff " + text(d[side]["hausdorff_pct_diagonal"]) + " %, RMS " +
-                           text(d[side]["rms_pct_diagonal"], "%.5f") + " %");
+    table += table_row(name, "Hausdorff " + text(d[side]["hausdorff_pct_diagonal"]) + " %, RMS " +
+                                 text(d[side]["rms_pct_diagonal"], "%.5f") + " %");
   return table;
 }
 
 std::string volume_mesh_table(const Json& v) {
   std::string table = "volume mesh\n";
-  table += row("size", text(v["nodes"]) + " nodes, " + text(v["tetrahedra"]) + " tetrahedra of order " +
-                           text(v["order"]) + ", " + text(v["inverted"]) + " inverted");
-  table += row("dihedral angles", text(v["min_dihedral_deg"], "%.2f") + " to " + text(v["max_dihedral_deg"], "%.2f") +
-                                      " deg, of faces " + text(v["min_face_angle_deg"], "%.2f") + " to " +
-                                      text(v["max_face_angle_deg"], "%.2f") + " deg");
-  table += row("scaled Jacobian",
-               "mean " + text(v["scaled_jacobian"]["mean"]) + ", min " + text(v["scaled_jacobian"]["min"]));
-  table += row("edge ratio", "max " + text(v["edge_ratio"]));
-  table += row("radius/edge ratio", "max " + text(v["radius_edge_ratio"]));
-  table += row("volume", text(v["volume"], "%.9g"));
+  table += table_row("size", text(v["nodes"]) + " nodes, " + text(v["tetrahedra"]) + " tetrahedra of order " +
+                                 text(v["order"]) + ", " + text(v["inverted"]) + " inverted");
+  table +=
+      table_row("dihedral angles", text(v["min_dihedral_deg"], "%.2f") + " to " + text(v["max_dihedral_deg"], "%.2f") +
+                                       " deg, of faces " + text(v["min_face_angle_deg"], "%.2f") + " to " +
+                                       text(v["max_face_angle_deg"], "%.2f") + " deg");
+  table += table_row("scaled Jacobian",
+                     "mean " + text(v["scaled_jacobian"]["mean"]) + ", min " + text(v["scaled_jacobian"]["min"]));
+  table += table_row("edge ratio", "max " + text(v["edge_ratio"]));
+  table += table_row("radius/edge ratio", "max " + text(v["radius_edge_ratio"]));
+  table += table_row("volume", text(v["volume"], "%.9g"));
   return table;
 }
 
 std::string gate_row(const Json& gate) {
-  return row(gate["pass"].get<bool>() ? "pass" : "FAIL", text(gate["name"]) + " = " + text(gate["value"], "%.6g") +
-                                                             ", " + text(gate["operator"]) + " " +
-                                                             text(gate["limit"], "%.6g"));
+  return table_row(gate["pass"].get<bool>() ? "pass" : "FAIL",
+                   text(gate["name"]) + " = " + text(gate["value"], "%.6g") + ", " + text(gate["operator"]) + " " +
+                       text(gate["limit"], "%.6g"));
 }
 
 std::string set_text(const Json& set) {
@@ -185,6 +183,11 @@ SurfaceFigures measure_surface(const SurfaceMesh& mesh) {
   if (surface.validity.encloses_volume()) surface.volume = enclosed_volume(mesh);
   surface.area = surface_area(mesh);
   return surface;
+}
+
+std::string table_row(const std::string& name, const std::string& figures) {
+  constexpr std::size_t column = 22;  // names have 18 characters at most, but those of sets
+  return "  " + name + std::string(name.size() < column ? column - name.size() : 1, ' ') + figures + "\n";
 }
 
 Json point_json(const Vec3& p) {
@@ -212,16 +215,16 @@ std::string to_table(const Json& report) {
   if (report.contains("volume_mesh")) table += volume_mesh_table(report["volume_mesh"]);
   if (report.contains("sets")) table += "sets\n";
   if (report.contains("sets"))
-    for (const Json& set : report["sets"]) table += row(text(set["name"]), set_text(set));
+    for (const Json& set : report["sets"]) table += table_row(text(set["name"]), set_text(set));
   if (report.contains("bodies")) table += "bodies\n";
   if (report.contains("bodies"))
     for (const Json& body : report["bodies"])
-      table +=
-          row(text(body["name"]), text(body["tetrahedra"]) + " tetrahedra, volume " + text(body["volume"], "%.9g") +
-                                      ", " + text(body["volume_difference_pct"], "%.4f") + " % from the scan's");
+      table += table_row(text(body["name"]), text(body["tetrahedra"]) + " tetrahedra, volume " +
+                                                 text(body["volume"], "%.9g") + ", " +
+                                                 text(body["volume_difference_pct"], "%.4f") + " % from the scan's");
   if (!report["regions"].empty()) table += "regions\n";
   for (const Json& region : report["regions"])
-    table += row(text(region["name"]), text(region["faces"]) + " faces, area " + text(region["area"], "%.9g"));
+    table += table_row(text(region["name"]), text(region["faces"]) + " faces, area " + text(region["area"], "%.9g"));
   if (!report["gates"].empty()) table += "gates\n";
   for (const Json& gate : report["gates"]) table += gate_row(gate);
   return table;

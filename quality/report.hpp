@@ -79,6 +79,9 @@ struct Report {
 // `gates` is there and empty; see gates.hpp.
 Json to_json(const Report& report);
 
+// A line of the table that to_table makes.
+std::string table_row(const std::string& name, const std::string& figures);
+
 // What the JSON object says, for a terminal: a few lines for each section that is there. Ends with a line break.
 std::string to_table(const Json& report);
 

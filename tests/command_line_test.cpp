@@ -79,6 +79,8 @@ TEST_F(CommandLine, MistypedNamesAreAnsweredWithWhatWasMeant) {
   expect_told("run " + sphere() + " -o x.inp --edge 3", {"did you mean --edge-length?"});
   expect_told("run " + sphere() + " -o x.inp -faces 300", {"did you mean --faces?"});
   expect_told("run " + sphere() + " -o x.inp --effort hihg", {"'hihg' is none of low, normal, high", "mean high?"});
+  expect_told("check " + sphere() + " --gates abacus", {"'abacus' is none of abaqus", "mean abaqus?"});
+  expect_told("picture " + sphere() + " -o x.png --view frnt", {"none of iso", "mean front?"});
   expect_told("surface " + sphere() + " -o x.ply --order 2", {"one of run, tetrahedralize"});
   expect_told("check " + sphere() + " another.ply", {"'another.ply' is one argument too many"});
   expect_told(sphere(), {"is a file; did you mean: scan2fea run"});
@@ -92,6 +94,7 @@ TEST_F(CommandLine, WhatIsMissingIsNamed) {
   expect_told("run " + sphere(), {"missing: -o, --output FILE"});
   expect_told("compare " + sphere(), {"missing: FILE, The second mesh"});
   expect_told("run " + sphere() + " -o x.inp --faces", {"--faces takes a value: --faces N"});
+  expect_told("check " + sphere() + " --json a --json b", {"--json is given more than once"});
   expect_told("", {"no command is given"});
 }
 
@@ -102,8 +105,9 @@ TEST_F(CommandLine, ValuesOutOfRangeAreErrorsWithAdvice) {
         "--edge-length 0", "--edge-length inf", "--edge-length nan", "--deviation 200%", "--deviation nan",
         "--deviation -1%", "--deviation 0", "--gradation nan", "--gradation 2", "--grading 0", "--interior-size -1x",
         "--interior-size nanx", "--max-volume 0", "--elements-across 0", "--order 3", "--threads -1", "--time-limit 0",
-        "--largest-hole 200%", "--feature-angle 190", "--feature-angle nan", "--size-box 0 0 0 1 1 1 -1",
-        "--size-box 0 0 0 1 1 1 nan", "--size-ball 0 0 0 -1 1", "--first-node 0",
+        "--largest-hole 200%", "--largest-hole 35", "--feature-angle 190", "--report ''", "--report -",
+        "--feature-angle nan", "--size-box 0 0 0 1 1 1 -1", "--size-box 0 0 0 1 1 1 nan", "--size-ball 0 0 0 -1 1",
+        "--first-node 0",
         // Of a sphere of diameter 20, so that nothing in it is as long.
         "--edge-length 50", "--deviation 20", "--interior-size 50", "--thickness 50", "--size-ball 10 0 0 3 100",
         "--size-box 500 0 0 600 1 1 0.5", "--enrich --sampling-radius 100"}) {
@@ -114,6 +118,14 @@ TEST_F(CommandLine, ValuesOutOfRangeAreErrorsWithAdvice) {
     EXPECT_THAT(lines.back(), AllOf(StartsWith("scan2fea: "), HasSubstr("; try: "))) << wrong;
     EXPECT_FALSE(std::filesystem::exists(path("x.inp"))) << wrong;
   }
+}
+
+TEST_F(CommandLine, NumbersMayHaveExponents) {
+  const std::string surface = "surface " + sphere() + " --quiet -o '";
+  ASSERT_EQ(run_command(surface + path("plain.ply") + "' --faces 400 --seed 1000").exit_code, 0);
+  const CommandResult result = run_command(surface + path("short.ply") + "' --faces 4e2 --seed 1e3 --time-limit 1e12");
+  ASSERT_EQ(result.exit_code, 0) << result.standard_error;
+  EXPECT_EQ(contents(path("short.ply")), contents(path("plain.ply")));
 }
 
 TEST_F(CommandLine, APrintedConfigurationMakesTheSameBytes) {

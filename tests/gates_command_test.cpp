@@ -47,7 +47,7 @@ class GatesCommand : public ::testing::Test {
 };
 
 TEST_F(GatesCommand, SetsAreGatesWithTheirSource) {
-  const auto result = check("ball.ply", "--gates nastran --gates abaqus --json -");
+  const auto result = check("ball.ply", "--gates NASTRAN --gates abaqus --json -");
   EXPECT_EQ(result.exit_code, 0) << result.standard_error;
   const json gates = json::parse(result.standard_output)["gates"];
   ASSERT_EQ(gates.size(), 5U);

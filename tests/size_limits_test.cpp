@@ -108,6 +108,16 @@ TEST(SizeLimits, RefuseAPlaceThatHoldsNoSurface) {
   EXPECT_NO_THROW(refine({.boxes = {}, .balls = {{{Vec3(1, 0, 0), 0.1}, 0.1}}, .elements_across = {}}));
 }
 
+TEST(SizeLimits, RefuseMoreTrianglesThanMemoryHolds) {
+  const BoundingBox half{.low = {0, -2, -2}, .high = {2, 2, 2}};
+  for (const SizeLimits& limits : {SizeLimits{.boxes = {{half, 1e-7}}, .balls = {}, .elements_across = {}},
+                                   {.boxes = {}, .balls = {{{Vec3(1, 0, 0), 0.5}, 1e-7}}, .elements_across = {}}}) {
+    SurfaceMesh sphere = analytic::sphere(1, 2);
+    std::vector<FeatureEdge> none;
+    EXPECT_THROW(refine_within_limits(sphere, none, limits), NotMeshable);
+  }
+}
+
 double mean_edge(const SurfaceMesh& mesh, const auto& counts) {
   double sum = 0, edges = 0;
   for (const Triangle& t : mesh.triangles)

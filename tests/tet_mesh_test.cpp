@@ -1,5 +1,7 @@
 #include "preproc/mesh/tet_mesh.hpp"
 
+#include "preproc/mesh/element_faces.hpp"
+
 #include <gtest/gtest.h>
 
 namespace scan2fea {
@@ -15,6 +17,17 @@ TetMesh two_tetrahedra() {
 
 TEST(TetMesh, SharedFaceIsNotBoundary) {
   EXPECT_EQ(two_tetrahedra().boundary.size(), 6U);
+}
+
+TEST(TetMesh, ElementsThatLieInOneAnotherAreFound) {
+  using Elements = std::vector<Tetrahedron>;
+  EXPECT_FALSE(find_element_faces({{0, 1, 2, 3}, {1, 2, 3, 4}}).overlapping);
+  const auto third = find_element_faces({{0, 1, 2, 3}, {1, 2, 3, 4}, {1, 3, 2, 5}}).overlapping;
+  ASSERT_TRUE(third);
+  EXPECT_NE((*third)[0], (*third)[1]);
+  for (const Elements& twice :
+       {Elements{{0, 1, 2, 3}, {2, 0, 1, 3}}, Elements{{0, 1, 2, 3}, {1, 2, 3, 4}, {4, 3, 2, 1}}})
+    EXPECT_TRUE(find_element_faces(twice).overlapping);
 }
 
 TEST(TetMesh, BoundaryEnclosesTheSumOfTheElements) {

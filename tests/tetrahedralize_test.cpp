@@ -256,6 +256,16 @@ TEST_F(TetrahedralizeChild, MemoryLimitIsReported) {
   EXPECT_THAT(failure(analytic::sphere(1, 3), options), HasSubstr("memory"));
 }
 
+TEST(Tetrahedralize, MoreTetrahedraThanMemoryHoldsAreRefusedAtOnce) {
+  TetrahedralizeOptions options;
+  for (const InteriorSize& tiny :
+       {InteriorSize{1e-4, InteriorSize::Unit::of_surface}, {1e-5, InteriorSize::Unit::model}}) {
+    options.interior_size = tiny;
+    const auto error = error_from<NotMeshable>([&] { tetrahedralize(analytic::sphere(1, 3), options); });
+    EXPECT_THAT(error.what(), HasSubstr("memory"));
+  }
+}
+
 TEST_F(TetrahedralizeChild, MoreTetrahedraThanAllowedAreNotMade) {
   TetrahedralizeOptions options;
   options.most_tetrahedra = 100;

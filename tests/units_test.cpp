@@ -51,6 +51,19 @@ TEST_F(UnitsOfFiles, AreNotRelabelled) {
   EXPECT_THAT(run_command("check '" + (folder_ / "part.inp").string() + "'").standard_error, HasSubstr(" mm"));
 }
 
+TEST_F(UnitsOfFiles, OfAReferenceAreThoseOfTheMesh) {
+  ASSERT_EQ(convert("--scale mm:m", "metres.inp").exit_code, 0);
+  const std::string mesh = "'" + (folder_ / "metres.inp").string() + "'";
+  const std::string reference = "'" + (folder_ / "part.inp").string() + "'";
+  for (const std::string& command : {"check " + mesh + " --reference " + reference, "compare " + mesh + " " + reference,
+                                     "compare " + mesh + " " + mesh + " --reference " + reference}) {
+    const CommandResult result = run_command(command);
+    EXPECT_EQ(result.exit_code, 2) << command;
+    EXPECT_THAT(result.standard_error, HasSubstr("its unit is mm")) << command;
+    EXPECT_THAT(result.standard_error, HasSubstr("--scale mm:m")) << command;
+  }
+}
+
 TEST_F(UnitsOfFiles, AreConvertedByScale) {
   const CommandResult scaled = convert("--scale mm:m", "out.vtu");
   EXPECT_EQ(scaled.exit_code, 0) << scaled.standard_error;

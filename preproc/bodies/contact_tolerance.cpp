@@ -11,7 +11,7 @@ namespace {
 
 // Of the smaller diagonal: surfaces that are farther apart do not stand for one another.
 constexpr double farthest = 0.01;
-constexpr double rounding = 1e-5;  // of the larger diagonal
+constexpr double rounding_of_contact = 1e-5;  // of the larger diagonal
 // A strip of width w that turns by an angle a to the next is w / 2 tan(a / 4) off its arc; a regular triangle of that
 // height, whose corners lie on a ball, eight thirds of it.
 constexpr double of_triangles = 8.0 / 3 / 2;
@@ -100,7 +100,7 @@ double contact_tolerance(const SurfaceMesh& first, std::span<const std::uint32_t
   const double diagonal_first = bounding_box(first.vertices).diagonal();
   const double diagonal_second = bounding_box(second.vertices).diagonal();
   const double reach = farthest * std::min(diagonal_first, diagonal_second);
-  const double fuzz = rounding * std::max(diagonal_first, diagonal_second);
+  const double fuzz = rounding_of_contact * std::max(diagonal_first, diagonal_second);
   const FacingSurface on_first(first, of_first, fuzz), on_second(second, of_second, fuzz);
   std::vector<std::uint32_t> near_first, near_second;
   for (const std::uint32_t f : of_first)

@@ -10,7 +10,7 @@
 namespace scan2fea {
 namespace {
 
-constexpr int bisections = 40;
+constexpr int imprint_bisections = 40;
 constexpr std::size_t most_steps = 1000;  // along one edge
 
 // An edge where the surface turns away from what one of its sides lies on.
@@ -63,7 +63,7 @@ class Imprint {
 
   // Between a part of the way with a foot and one without, the last with one.
   double last_with_foot(const Rim& rim, std::size_t side, double with, double without) const {
-    for (int i = 0; i < bisections; ++i) {
+    for (int i = 0; i < imprint_bisections; ++i) {
       const double middle = (with + without) / 2;
       (foot(rim, side, middle) ? with : without) = middle;
     }

@@ -14,7 +14,7 @@ namespace scan2fea {
 namespace {
 
 // Of the diagonal: what coordinates of six digits leave of a place.
-constexpr double rounding = 1e-5;
+constexpr double touching_of_diagonal = 1e-5;
 // Sine of the angle between planes that are one.
 constexpr double parallel = 1e-4;
 // Of the area; and the cosine of normals that are alike.
@@ -88,7 +88,7 @@ std::pair<std::uint32_t, std::uint32_t> bodies_of(const BodyComplex& complex, co
 }
 
 double nothing_in(const BodyComplex& complex) {
-  return rounding * bounding_box(complex.mesh.vertices).diagonal();
+  return touching_of_diagonal * bounding_box(complex.mesh.vertices).diagonal();
 }
 
 void measure(const BodyComplex& complex, TouchingPlace& place) {

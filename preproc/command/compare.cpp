@@ -43,10 +43,10 @@ int compare(CompareFlags flags) {
   const std::vector<Gate> gates = gates_for(asked, second.volume_mesh.has_value());
   const std::string unit =
       settled_unit(first.unit.empty() ? second.unit : first.unit, flags.common.unit, flags.common.input.string());
-  settled_unit(second.unit, unit.empty() ? std::nullopt : std::optional(unit), flags.second.string());
+  require_same_unit(unit, second.unit, flags.second.string());
   if (!unit.empty()) flags.common.unit = unit;
   LoadedReference scan;
-  if (flags.reference) scan = load_reference(*flags.reference);
+  if (flags.reference) scan = load_references({*flags.reference}, unit);
 
   // The second one as `check --reference` measures it against the first.
   const LoadedReference as_reference = reference_of(first);

@@ -94,9 +94,10 @@ void require_usable(const ConvertFlags& flags) {
 }
 
 // In the unit of what is written; nothing where none is given.
-std::optional<SurfaceMesh> read_reference(const ConvertFlags& flags) {
+std::optional<SurfaceMesh> read_reference(const MeshFile& read, const ConvertFlags& flags) {
   if (flags.references.empty()) return {};
-  LoadedReference reference = load_references(flags.references);
+  const std::string unit = std::visit([](const auto& mesh) { return mesh.unit; }, read.mesh);
+  LoadedReference reference = load_references(flags.references, unit);
   if (!reference.surface)
     throw WrongUsage({.what = "the reference is a point cloud, which has no sides",
                       .where = flags.references.front().string(),
@@ -143,7 +144,7 @@ int convert(ConvertFlags flags) {
   MeshFile read = read_mesh(file_to_read(flags.input, flags.formats.from));
   for (const std::string& warning : read.warnings) tell({flags.input.string() + ": " + warning});
   tell_other_arrays(read, flags);
-  const std::optional<SurfaceMesh> reference = read_reference(flags);
+  const std::optional<SurfaceMesh> reference = read_reference(read, flags);
   settle_unit(read, flags, display);
   name_sets_again(read, flags);
   FileOptions options{.provenance = name_of_input(flags.input),

@@ -1,5 +1,8 @@
 #include "preproc/command/element_figures.hpp"
 
+#include "preproc/mesh/error_text.hpp"
+#include "quality/extreme_elements.hpp"
+#include "quality/report.hpp"
 #include "quality/report_page/report_page.hpp"
 #include "quality/worst_elements.hpp"
 
@@ -58,6 +61,20 @@ std::string title_of(const Json& report, const Subject& subject) {
 std::uint64_t element_number(std::uint32_t element, const Subject& subject) {
   const std::vector<std::uint32_t>& numbers = subject.element_numbers;
   return element < numbers.size() ? numbers[element] : subject.first_element + element;
+}
+
+std::string worst_element_row(const Subject& subject, const Json& report) {
+  const bool is_volume = subject.volume_mesh != nullptr;
+  if (!is_volume && subject.surface == nullptr) return {};
+  const auto found = is_volume ? extreme_tetrahedron(*subject.volume_mesh, "volume_mesh.scaled_jacobian.min")
+                               : extreme_triangle(*subject.surface, "surface.min_angle_deg.min");
+  if (!found) return {};
+  const double figure = is_volume ? report["volume_mesh"]["scaled_jacobian"]["min"].get<double>()
+                                  : report["surface"]["min_angle_deg"]["min"].get<double>();
+  return table_row("worst element", std::to_string(element_number(found->index, subject)) +
+                                        (is_volume ? ": scaled Jacobian " : ": smallest angle ") +
+                                        error_text(figure, 4) + (is_volume ? "" : " deg") + ", at " +
+                                        error_text(found->place));
 }
 
 ElementFigures measure_elements(const Subject& subject) {

@@ -19,6 +19,9 @@ struct ElementFigures {
 // By which a user knows the element.
 std::uint64_t element_number(std::uint32_t element, const Subject& subject);
 
+// The worst element with its number, figure and place, a row for the table of figures; empty where there is none.
+std::string worst_element_row(const Subject& subject, const Json& report);
+
 // Precondition: the subject has a surface.
 ElementFigures measure_elements(const Subject& subject);
 

@@ -257,10 +257,11 @@ bool report_figures(const Subject& subject, const CommonFlags& flags, const std:
   const std::vector<GateResult> results = finish_report(report, subject, flags, gates, outputs);
   // With the JSON, the XML or the mesh on stdout the table goes where messages go.
   if (!flags.quiet) {
+    const std::string table = to_table(report) + worst_element_row(subject, report);
     if (flags.json == "-" || flags.junit == "-" || flags.stdout_is_data)
-      display.line(to_table(report));
+      display.line(table);
     else
-      write_to_stdout(to_table(report));
+      write_to_stdout(table);
   }
   tell_failures(results, flags.input);
   return all_pass(results);

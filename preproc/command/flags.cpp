@@ -68,7 +68,7 @@ void add_common_flags(CLI::App& command, CommonFlags& flags) {
   add_figure_flags(command, flags);
   const OptionGroup group(command, "Running");
   command.add_option("--threads", flags.threads, "Number of threads. The result does not depend on it")
-      ->check(whole_between(0, 1024, "0 for all"))
+      ->transform(whole_between(0, 1024, "0 for all"))
       ->default_str("all")
       ->type_name("N");
   add_display_flags(command, flags);
@@ -78,12 +78,18 @@ void add_common_flags(CLI::App& command, CommonFlags& flags) {
 void add_figure_flags(CLI::App& command, CommonFlags& flags) {
   const OptionGroup group(command, "Figures, gates and reports");
   command.add_option("--json", flags.json, "Write all figures as JSON (- for stdout)")->type_name("FILE");
-  command.add_option("--report", flags.report, "Write report.html and report.json into this folder")->type_name("DIR");
+  command.add_option("--report", flags.report, "Write report.html and report.json into this folder")
+      ->check(CLI::Validator(
+          [](std::string& folder) {
+            return folder.empty() || folder == "-" ? "'" + folder + "' is no folder; try: report" : std::string();
+          },
+          ""))
+      ->type_name("DIR");
   command.add_flag("--report-pdf", flags.report_pdf, "Print the report as report.pdf, too, by Chromium")
       ->needs("--report");
   add_gate_flags(command, flags);
   command.add_option("--seed", flags.seed, "Of the random points by which distances are measured")
-      ->check(whole_between(0, std::pow(2.0, 64) - 1, "1"))
+      ->transform(whole_between(0, std::pow(2.0, 64) - 1, "1"))
       ->capture_default_str()
       ->type_name("N");
 }
@@ -125,7 +131,7 @@ void add_force_flag(CLI::App& command, bool& force) {
 void add_size_flags(CLI::App& command, SizeFlags& flags) {
   const OptionGroup group(command, "How many triangles, at most one of");
   CLI::Option* faces = command.add_option("--faces", flags.faces, "Wanted number of surface triangles")
-                           ->check(whole_between(4, std::size_t{1} << 31, "some thousands"))
+                           ->transform(whole_between(4, std::size_t{1} << 31, "some thousands"))
                            ->type_name("N");
   CLI::Option* ratio = command.add_option("--ratio", flags.ratio, "Wanted triangles over those of the input")
                            ->check(positive("0.1"))
@@ -166,7 +172,7 @@ void add_size_limit_flags(CLI::App& command, SizeLimits& limits) {
       .add_option_function<int>(
           "--elements-across", [&limits](int elements) { limits.elements_across = elements; },
           "Edges short enough for so many elements across every wall, 1 to 10")
-      ->check(whole_between(1, 10, "2"))
+      ->transform(whole_between(1, 10, "2"))
       ->type_name("N");
 }
 
@@ -225,7 +231,8 @@ void add_feature_angle_flag(CLI::App& command, FeatureOptions& features) {
             }
             const std::optional<double> angle = number_in(text);
             if (!angle || *angle <= 0 || *angle >= 180)
-              throw CLI::ValidationError("--feature-angle", "'" + text + "' is neither off nor degrees, 0 to 180");
+              throw CLI::ValidationError("--feature-angle",
+                                         "'" + text + "' is neither off nor degrees above 0 and below 180");
             features.angle_deg = *angle;
             features.continuation_angle_deg = std::min(features.continuation_angle_deg, *angle);
           },

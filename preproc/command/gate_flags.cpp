@@ -1,13 +1,13 @@
 #include "preproc/command/gate_flags.hpp"
 
 #include "preproc/command/option_text.hpp"
+#include "preproc/command/option_values.hpp"
 #include "preproc/command/output_files.hpp"
 #include "preproc/mesh/joined.hpp"
 #include "quality/gate_list.hpp"
 #include "quality/limits.hpp"
 
 #include <CLI/Error.hpp>
-#include <CLI/Validators.hpp>
 
 namespace scan2fea::command {
 namespace {
@@ -43,7 +43,7 @@ void add_gate_flags(CLI::App& command, CommonFlags& flags) {
   command
       .add_option("--gates", flags.gates,
                   "A solver's own limits, or those of the paper, as gates; --require replaces them")
-      ->check(CLI::IsMember(names_of_sets(), CLI::ignore_case).description(""))
+      ->transform(one_of(names_of_sets()))
       ->type_name(words_of_sets())
       ->allow_extra_args(false);
   command.add_option("--junit", flags.junit, "Write the gates as JUnit XML, a test case each (- for stdout)")

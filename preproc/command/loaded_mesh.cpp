@@ -1,6 +1,7 @@
 #include "preproc/command/loaded_mesh.hpp"
 
 #include "export/formats.hpp"
+#include "export/units.hpp"
 #include "preproc/command/body_inputs.hpp"
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/read_cloud.hpp"
@@ -68,14 +69,19 @@ LoadedReference load_reference(const std::filesystem::path& file) {
                        .volume_mesh = {},
                        .face_sets = std::move(surface.face_sets),
                        .element_numbers = {},
-                       .unit = {}});
+                       .unit = std::move(surface.unit)});
 }
 
-LoadedReference load_references(const std::vector<std::filesystem::path>& files) {
-  if (files.size() == 1) return load_reference(files.front());
-  LoadedReference all{.surface = SurfaceMesh{}, .cloud = {}, .solid_volume = 0, .is_of_bodies = true};
+LoadedReference load_references(const std::vector<std::filesystem::path>& files, const std::string& unit) {
+  if (files.size() == 1) {
+    LoadedReference reference = load_reference(files.front());
+    require_same_unit(unit, reference.unit, files.front().string());
+    return reference;
+  }
+  LoadedReference all{.surface = SurfaceMesh{}, .cloud = {}, .solid_volume = 0, .is_of_bodies = true, .unit = unit};
   for (const std::filesystem::path& file : files) {
     const LoadedReference one = load_reference(file);
+    require_same_unit(unit, one.unit, file.string());
     if (!one.surface)
       throw WrongUsage({.what = "a point cloud among several references",
                         .where = file.string(),
@@ -91,6 +97,7 @@ LoadedReference load_references(const std::vector<std::filesystem::path>& files)
 
 LoadedReference reference_of(LoadedMesh mesh) {
   LoadedReference reference;
+  reference.unit = mesh.unit;
   if (!mesh.volume_mesh) {
     if (const std::vector<Body> bodies = bodies_of_groups(mesh.surface, mesh.face_sets); !bodies.empty()) {
       reference.is_of_bodies = true;

@@ -33,14 +33,16 @@ struct LoadedReference {
   std::optional<PointCloud> cloud;
   std::optional<double> solid_volume;  // where the surface's triangles do not tell it
   bool is_of_bodies = false;           // see DeviationOptions
+  std::string unit;                    // that the file says; empty where it says none
 };
 
 // The reference must outlive the subject.
 void compare_with(const LoadedReference& reference, Subject& subject);
 
 LoadedReference load_reference(const std::filesystem::path& file);
-// One of them, or the surfaces of several bodies. Throws WrongUsage for a cloud among several.
-LoadedReference load_references(const std::vector<std::filesystem::path>& files);
+// One of them, or the surfaces of several bodies. Throws WrongUsage for a cloud among several, and where a file says
+// another unit than `unit`, that of the mesh.
+LoadedReference load_references(const std::vector<std::filesystem::path>& files, const std::string& unit);
 // Of a mesh of second order the surface is curved, in flat pieces; of one of several bodies it is all of their
 // surfaces.
 LoadedReference reference_of(LoadedMesh mesh);

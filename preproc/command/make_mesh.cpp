@@ -98,14 +98,15 @@ void require_known_format(const MakeMeshJob& job) {
 // to its end by itself is ended a little later.
 Progress limited(const Progress& progress, const MakeMeshJob& job) {
   constexpr double for_improvement = 0.75, for_work = 0.9, latest = 1.15;
+  constexpr double three_years = 1e8;  // after three hundred the clock's ticks overflow
+  const double limit = std::min(*job.time_limit, three_years);
   char seconds[32];
-  std::snprintf(seconds, sizeof seconds, "%.6g s", *job.time_limit);
-  end_after(std::chrono::duration<double>(latest * *job.time_limit),
+  std::snprintf(seconds, sizeof seconds, "%.6g s", limit);
+  end_after(std::chrono::duration<double>(latest * limit),
             job.common.input.string() + ": the time limit ended the work before there was a valid mesh (limit: " +
                 seconds + "); try: a longer --time-limit, --effort low, or fewer triangles");
-  const auto after = [&, start = Progress::Clock::now()](double share) {
-    return start + std::chrono::duration_cast<Progress::Clock::duration>(
-                       std::chrono::duration<double>(share * *job.time_limit));
+  const auto after = [limit, start = Progress::Clock::now()](double share) {
+    return start + std::chrono::duration_cast<Progress::Clock::duration>(std::chrono::duration<double>(share * limit));
   };
   return progress.until(after(for_work), after(for_improvement));
 }

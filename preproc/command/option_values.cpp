@@ -1,6 +1,12 @@
 #include "preproc/command/option_values.hpp"
 
+#include "preproc/command/option_text.hpp"
 #include "preproc/mesh/error_text.hpp"
+#include "preproc/mesh/joined.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdint>
 
 namespace scan2fea::command {
 namespace {
@@ -21,6 +27,8 @@ CLI::Validator checked(double low, double high, bool whole, const std::string& a
       [=](std::string& text) {
         const std::optional<double> value = number_in(text);
         const bool fits = value && *value >= low && *value <= high && (!whole || *value == std::floor(*value));
+        const bool is_plain = std::ranges::all_of(text, [](unsigned char c) { return std::isdigit(c) != 0; });
+        if (fits && whole && !is_plain) text = std::to_string(static_cast<std::uint64_t>(*value));
         return fits ? std::string()
                     : "'" + text + "' is " + (whole ? "no whole number" : "no number") + " from " + bound_text(low) +
                           " to " + bound_text(high) + tried(advice);
@@ -52,6 +60,18 @@ CLI::Validator between(double low, double high, const std::string& advice) {
 
 CLI::Validator whole_between(double low, double high, const std::string& advice) {
   return checked(low, high, true, advice);
+}
+
+CLI::Validator one_of(const std::vector<std::string>& names) {
+  return CLI::Validator(
+      [names](std::string& text) {
+        const std::string lower = CLI::detail::to_lower(text);
+        const auto found = std::ranges::find(names, lower);
+        if (found == names.end()) return "'" + text + "' is none of " + joined(names) + did_you_mean(lower, names);
+        text = *found;
+        return std::string();
+      },
+      "");
 }
 
 RelativeLength parse_length(const std::string& flag, const std::string& text, char suffix) {

@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace scan2fea::command {
 
@@ -20,7 +21,11 @@ CLI::Validator positive(const std::string& advice);
 
 // From `low` to `high`, which are shown; `advice` may be empty.
 CLI::Validator between(double low, double high, const std::string& advice);
+// To transform the option: 1e5 is a whole number too, which CLI11 would not read.
 CLI::Validator whole_between(double low, double high, const std::string& advice);
+
+// One of some names, in whatever case: to transform the option into it.
+CLI::Validator one_of(const std::vector<std::string>& names);
 
 // A length in model units, or as a share of something the input tells.
 struct RelativeLength {

@@ -1,5 +1,8 @@
 #include "preproc/command/picture_flags.hpp"
 
+#include "preproc/command/option_text.hpp"
+#include "preproc/mesh/joined.hpp"
+
 #include <CLI/Error.hpp>
 
 #include <array>
@@ -74,14 +77,15 @@ Vec3 view_direction(const std::string& text) {
                                                                   {"right", {1, 0, 0}},
                                                                   {"top", {0, 0, 1}},
                                                                   {"bottom", {0, 0, -1}}}};
-  std::string list;
+  std::vector<std::string> known;
   for (const auto& [name, direction] : names) {
     if (text == name) return direction.normalized();
-    list += name + std::string(", ");
+    known.emplace_back(name);
   }
   const std::optional<Vec3> direction = direction_in(text);
   if (!direction)
-    throw CLI::ValidationError("--view", "'" + text + "' is none of " + list + "and no direction 1,-2,0.5");
+    throw CLI::ValidationError("--view", "'" + text + "' is none of " + joined(known) + ", and no direction 1,-2,0.5" +
+                                             did_you_mean(text, known));
   return *direction;
 }
 

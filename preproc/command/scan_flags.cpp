@@ -35,7 +35,7 @@ void add_reconstruct_flags(CLI::App& command, ReconstructOptions& options) {
       "How a cloud becomes a surface: through its points, or smooth and near them");
   command.add_option("--largest-cloud", options.largest_cloud, "Thin a cloud to at most so many points")
       ->default_str("100000, or twice --faces")
-      ->check(whole_between(1000, 100'000'000, "100000"))
+      ->transform(whole_between(1000, 100'000'000, "100000"))
       ->type_name("N");
   add_repeated(command, "--scanner", 3, "X Y Z", "Where the scanner stood, whatever the cloud tells",
                [&options](const double* v) { options.scanners.emplace_back(v[0], v[1], v[2]); })
@@ -64,8 +64,8 @@ void add_repair_flags(CLI::App& command, RepairOptions& options) {
             }
             const RelativeLength length = parse_length("--largest-hole", text, '%');
             if (!length.relative || length.value > 1)
-              throw CLI::ValidationError("--largest-hole",
-                                         "'" + text + "' is no share of the size, as 35% is; try: all");
+              throw CLI::ValidationError("--largest-hole", "'" + text + "' is no share of the size, as 35% is; try: " +
+                                                               (length.value <= 100 ? text + "%, or all" : "all"));
             options.largest_hole_of_diagonal = length.value;
           },
           "Close holes up to this size, % of their component's diagonal, or all")

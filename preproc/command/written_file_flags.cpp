@@ -30,11 +30,11 @@ void add_number_flags(CLI::App& command, NumberFlags& flags) {
   const CLI::Validator numbers = whole_between(1, std::uint64_t{1} << 40, "1");
   command
       .add_option("--first-node", flags.numbers.first_node, "Number of the first node, where the format has numbers")
-      ->check(numbers)
+      ->transform(numbers)
       ->type_name("N");
   command
       .add_option("--first-element", flags.numbers.first_element, "The same of elements; properties and sets follow")
-      ->check(numbers)
+      ->transform(numbers)
       ->type_name("N");
 }
 

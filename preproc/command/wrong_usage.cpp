@@ -44,9 +44,10 @@ std::string unexpected(const CLI::App& root, const CLI::App& command) {
   return text + did_you_mean(name, names_of(command));
 }
 
-// "--faces: 1 required N missing" of CLI11.
+// "--faces: 1 required N missing" of CLI11, or "--json: At Most 1 required but received 2".
 std::string missing_value(const CLI::App& command, const std::string& what) {
   const std::string name = what.substr(0, what.find(':'));
+  if (what.find("At Most") != std::string::npos) return name + " is given more than once";
   const CLI::Option* option = command.get_option_no_throw(name);
   return option == nullptr ? what : name + " takes a value: " + name + " " + option->get_type_name();
 }

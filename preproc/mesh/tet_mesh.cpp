@@ -1,5 +1,6 @@
 #include "preproc/mesh/tet_mesh.hpp"
 
+#include "preproc/mesh/element_faces.hpp"
 #include "preproc/mesh/own_vertices.hpp"
 
 #include <algorithm>
@@ -7,11 +8,6 @@
 
 namespace scan2fea {
 namespace {
-
-struct Face {
-  Triangle key;  // sorted corners
-  BoundaryFace face;
-};
 
 // The triangles, each from its first node on, and the nodes that they use.
 SurfaceMesh numbered_in_order(const TetMesh& mesh, std::vector<Triangle> triangles) {
@@ -83,29 +79,7 @@ std::vector<std::uint32_t> nodes_of_faces(const TetMesh& mesh, std::span<const s
 }
 
 std::vector<BoundaryFace> find_boundary(const std::vector<Tetrahedron>& tetrahedra) {
-  std::vector<Face> faces;
-  faces.reserve(tetrahedra.size() * 4);
-  for (std::uint32_t t = 0; t < tetrahedra.size(); ++t) {
-    for (std::uint8_t f = 0; f < 4; ++f) {
-      Triangle key;
-      for (std::size_t k = 0; k < 3; ++k) key[k] = tetrahedra[t][static_cast<std::size_t>(tetrahedron_faces[f][k])];
-      std::sort(key.begin(), key.end());
-      faces.push_back({key, {t, f}});
-    }
-  }
-  std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.key < b.key; });
-
-  std::vector<BoundaryFace> boundary;
-  for (std::size_t i = 0; i < faces.size();) {
-    std::size_t j = i + 1;
-    while (j < faces.size() && faces[j].key == faces[i].key) ++j;
-    if (j == i + 1) boundary.push_back(faces[i].face);
-    i = j;
-  }
-  std::sort(boundary.begin(), boundary.end(), [](BoundaryFace a, BoundaryFace b) {
-    return a.tetrahedron != b.tetrahedron ? a.tetrahedron < b.tetrahedron : a.face < b.face;
-  });
-  return boundary;
+  return find_element_faces(tetrahedra).boundary;
 }
 
 SurfaceMesh boundary_surface(const TetMesh& mesh) {

@@ -11,8 +11,8 @@
 namespace scan2fea {
 namespace {
 
-constexpr int most_sweeps = 6;
-constexpr double farthest_of_edge = 0.25, first_step = 0.1, last_step = 0.005, least_gain = 1e-4;
+constexpr int most_mid_edge_sweeps = 6;
+constexpr double farthest_of_curved_edge = 0.25, first_step = 0.1, last_step = 0.005, least_gain = 1e-4;
 
 class MidEdgeRelocation {
  public:
@@ -24,7 +24,7 @@ class MidEdgeRelocation {
   }
 
   void run(const std::vector<std::uint32_t>& poor, double wanted, const Progress& progress) {
-    for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+    for (int sweep = 0; sweep < most_mid_edge_sweeps; ++sweep) {
       std::vector<std::pair<double, std::uint32_t>> worst_first;
       for (const std::uint32_t t : poor) {
         const double quality = curved_quality(mesh_, t);
@@ -33,7 +33,7 @@ class MidEdgeRelocation {
       std::sort(worst_first.begin(), worst_first.end());
       bool has_moved = false;
       for (std::size_t i = 0; i < worst_first.size(); ++i) {
-        if (i % 16 == 0) progress.tell("curved elements", sweep / static_cast<double>(most_sweeps));
+        if (i % 16 == 0) progress.tell("curved elements", sweep / static_cast<double>(most_mid_edge_sweeps));
         if (!progress.may_improve()) return;
         for (std::size_t e = 0; e < 6; ++e) has_moved |= move(worst_first[i].second, e, wanted);
       }
@@ -70,7 +70,7 @@ class MidEdgeRelocation {
         for (const double way : {step, -step}) {
           const Vec3 before = place;
           place[axis] += way * length;
-          const bool is_near = (place - middle).norm() <= farthest_of_edge * length;
+          const bool is_near = (place - middle).norm() <= farthest_of_curved_edge * length;
           const double there = is_near ? quality_around(node, wanted, quality) : quality;
           if (there > quality + least_gain) {
             quality = there;

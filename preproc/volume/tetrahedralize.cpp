@@ -48,9 +48,11 @@ void require_memory_of_tetrahedra(double count) {
   require_memory(count, bytes_each, "tetrahedra", "a larger --interior-size or --max-volume, or larger triangles");
 }
 
-// Of edges as long as this inside, at the least: a cell of the lattice holds 12, its edges are 0.911 of it.
+// Of edges as long as this inside, at the least: a cell of the lattice holds 12, its edges are 0.911 of it. Where edges
+// are told by those of the surface, the layer beneath its triangles is counted alone.
 double least_tetrahedra(const SurfaceMesh& surface, const InteriorSize& size) {
-  if (size.unit != InteriorSize::Unit::model) return 0;
+  if (size.unit != InteriorSize::Unit::model)
+    return static_cast<double>(surface.triangles.size()) / std::pow(std::min(1.0, size.value), 2);
   return 12 * std::abs(enclosed_volume(surface)) / std::pow(size.value / 0.911, 3);
 }
 

@@ -3,11 +3,13 @@
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/error_text.hpp"
 #include "preproc/mesh/numbers.hpp"
+#include "preproc/mesh/require_memory.hpp"
 #include "preproc/surface/kernel/adjacency.hpp"
 #include "preproc/surface/kernel/parallel_blocks.hpp"
 #include "preproc/surface/sizing/sizing_field.hpp"
 #include "preproc/surface/sizing/split_long_edges.hpp"
 #include "quality/face_blocks.hpp"
+#include "quality/triangle_measures.hpp"
 #include "quality/triangle_tree.hpp"
 #include "quality/wall_thickness.hpp"
 
@@ -22,25 +24,26 @@ namespace {
 constexpr double margin = 0.85;
 // Of the other edges, so that the count is kept.
 constexpr double most_growth = 1.5;
+// Of the refined scan and what is made of it.
+constexpr double bytes_a_triangle = 200;
 
-void require(bool good, const char* what, double value, const char* limit) {
-  if (!good)
-    throw WrongUsage({.what = what, .where = "size", .value = std::to_string(value), .limit = limit, .advice = {}});
+void require(bool good, const char* flag, const char* what, double value, const char* limit) {
+  if (!good) throw WrongUsage({.what = what, .where = flag, .value = error_text(value), .limit = limit, .advice = {}});
 }
 
 void check(const SizeLimits& limits) {
   for (const SizedBox& b : limits.boxes) {
-    require(b.length > 0 && std::isfinite(b.length), "edge length in a box out of range", b.length, "above 0");
-    require((b.box.high - b.box.low).minCoeff() >= 0, "box without an inside", (b.box.high - b.box.low).minCoeff(),
-            "low corner first");
+    require(b.length > 0 && std::isfinite(b.length), "--size-box", "edge length out of range", b.length, "above 0");
+    require((b.box.high - b.box.low).minCoeff() >= 0, "--size-box", "the box has no inside: a side is negative",
+            (b.box.high - b.box.low).minCoeff(), "the low corner first");
   }
   for (const SizedBall& b : limits.balls) {
-    require(b.length > 0 && std::isfinite(b.length), "edge length in a ball out of range", b.length, "above 0");
-    require(b.ball.radius > 0, "radius of a ball out of range", b.ball.radius, "above 0");
+    require(b.length > 0 && std::isfinite(b.length), "--size-ball", "edge length out of range", b.length, "above 0");
+    require(b.ball.radius > 0, "--size-ball", "radius out of range", b.ball.radius, "above 0");
   }
   if (limits.elements_across)
-    require(*limits.elements_across >= 1 && *limits.elements_across <= 10, "elements across a wall out of range",
-            *limits.elements_across, "1 to 10");
+    require(*limits.elements_across >= 1 && *limits.elements_across <= 10, "--elements-across",
+            "elements across a wall out of range", *limits.elements_across, "1 to 10");
 }
 
 bool meet(const BoundingBox& a, const BoundingBox& b) {
@@ -95,6 +98,25 @@ void limit_across(const SurfaceMesh& scan, int elements, double longest_edge, st
   for (std::size_t f = 0; f < thickness.size(); ++f) lower(limit, scan.triangles[f], thickness[f] / elements);
 }
 
+// Triangles that lie in limits with all corners become at least so many.
+double least_triangles(const SurfaceMesh& scan, const SizeLimits& limits) {
+  double sum = 0;
+  for (const Triangle& t : scan.triangles) {
+    double length = infinity;
+    const auto lies_in = [&](const auto& contains) {
+      return std::ranges::all_of(t, [&](std::uint32_t v) { return contains(scan.vertices[v]); });
+    };
+    for (const auto& [box, limit] : limits.boxes)
+      if (lies_in([&](const Vec3& p) { return (p.array() >= box.low.array() && p.array() <= box.high.array()).all(); }))
+        length = std::min(length, limit);
+    for (const auto& [ball, limit] : limits.balls)
+      if (lies_in([&](const Vec3& p) { return (p - ball.centre).norm() <= ball.radius; }))
+        length = std::min(length, limit);
+    if (length < infinity) sum += 0.5 * area_vector(scan, t).norm() / (equilateral_area * length * length);
+  }
+  return sum;
+}
+
 }  // namespace
 
 void refine_within_limits(SurfaceMesh& scan, std::vector<FeatureEdge>& features, const SizeLimits& limits) {
@@ -103,6 +125,8 @@ void refine_within_limits(SurfaceMesh& scan, std::vector<FeatureEdge>& features,
   for (const auto& [box, length] : limits.boxes) require_surface_in(scan, box, "box", (box.low + box.high) / 2);
   for (const auto& [ball, length] : limits.balls) require_surface_in(scan, ball, "ball", ball.centre);
   for (int pass = 0; pass < most_passes; ++pass) {
+    require_memory(least_triangles(scan, limits), bytes_a_triangle, "triangles",
+                   "longer edges in --size-box or --size-ball, or a smaller box or ball");
     std::vector<double> length(scan.vertices.size(), infinity);
     for (const Triangle& t : scan.triangles) {
       const double limit = limit_of(scan, t, limits);
