@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 namespace scan2fea {
 namespace {
@@ -25,21 +26,29 @@ std::uint16_t BarScale::step_of(double value) const {
 
 MeasuredElements count_elements(std::string measure, std::string of, std::span<const double> values,
                                 const BarScale& scale) {
-  MeasuredElements measured{std::move(measure), std::move(of), scale, {}, std::vector<std::size_t>(scale.bars, 0)};
+  MeasuredElements measured{std::move(measure), std::move(of), scale, {}, std::vector<std::size_t>(scale.bars, 0), 0};
   measured.steps.reserve(values.size());
   for (const double value : values) {
     const std::uint16_t step = measured.steps.emplace_back(scale.step_of(value));
-    if (step != no_step) ++measured.counts[step / scale.steps_per_bar()];
+    if (step == no_step) continue;
+    ++measured.counts[step / scale.steps_per_bar()];
+    if (value < scale.low || value > scale.high) ++measured.beyond;
   }
   return measured;
 }
 
 BarScale scale_around_zero(std::span<const double> values, double least) {
   constexpr std::uint16_t bars = 41;
-  double largest = least;
+  std::vector<double> sizes;
   for (const double value : values)
-    if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
-  const double end = rounded_up(largest);
+    if (std::isfinite(value)) sizes.push_back(std::abs(value));
+  double farthest = least;
+  if (!sizes.empty()) {
+    const auto last = sizes.begin() + static_cast<std::ptrdiff_t>((99 * sizes.size() + 99) / 100) - 1;
+    std::nth_element(sizes.begin(), last, sizes.end());
+    farthest = std::max(farthest, *last);
+  }
+  const double end = rounded_up(farthest);
   return {.low = -end, .high = end, .bars = bars};
 }
 

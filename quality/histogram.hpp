@@ -29,14 +29,16 @@ struct MeasuredElements {
   BarScale scale;
   std::vector<std::uint16_t> steps;  // per element
   std::vector<std::size_t> counts;   // per bar
+  std::size_t beyond = 0;            // how many of them are in a bar at an end that lie beyond it
 };
 
 // O(n).
 MeasuredElements count_elements(std::string measure, std::string of, std::span<const double> values,
                                 const BarScale& scale);
 
-// Around zero, as far as the value farthest from it, but at least as far as `least`, above 0, so that rounding fills no
-// scale; rounded up to one or two digits. An odd number of bars, so that one lies around zero.
+// Around zero, so far that 99 of 100 values are in it, since one closed hole would leave no colours for all else, but
+// at least as far as `least`, above 0, so that rounding fills no scale; rounded up to one or two digits. An odd number
+// of bars, so that one lies around zero. O(n).
 BarScale scale_around_zero(std::span<const double> values, double least);
 
 }  // namespace scan2fea

@@ -12,11 +12,6 @@
 namespace scan2fea {
 namespace {
 
-// The larger one by size; the first of equals.
-double farther(double a, double b) {
-  return std::abs(b) > std::abs(a) ? b : a;
-}
-
 // Of places near one another, each answer is where the search for the next one begins.
 class SignedDistances {
  public:
@@ -48,8 +43,17 @@ void for_each_near_the_last(std::size_t count, const TriangleTree& tree, const W
 }
 
 constexpr double third = 1.0 / 3;
-constexpr std::array<std::array<double, 3>, 7> places{
-    {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.5, 0.5, 0}, {0, 0.5, 0.5}, {0.5, 0, 0.5}, {third, third, third}}};
+struct Place {
+  std::array<double, 3> at;  // barycentric
+  double weight;
+};
+constexpr std::array<Place, 7> places{{{{1, 0, 0}, 0.05},
+                                       {{0, 1, 0}, 0.05},
+                                       {{0, 0, 1}, 0.05},
+                                       {{0.5, 0.5, 0}, 2.0 / 15},
+                                       {{0, 0.5, 0.5}, 2.0 / 15},
+                                       {{0.5, 0, 0.5}, 2.0 / 15},
+                                       {{third, third, third}, 0.45}}};
 
 // `normals`: of any length; 0 for nodes that are passed over.
 std::vector<double> deviations_along(const std::vector<Vec3>& nodes, const std::vector<Vec3>& normals,
@@ -86,11 +90,10 @@ std::vector<double> signed_deviations(const SurfaceMesh& mesh, const TriangleTre
   for_each_near_the_last(deviations.size(), reference, [&](std::size_t f, SignedDistances& distances) {
     const auto& [a, b, c] = mesh.triangles[f];
     const Vec3 outward = area_vector(mesh, mesh.triangles[f]);
-    double deviation = 0;
-    for (const auto& [u, v, w] : places)
-      deviation = farther(deviation,
-                          distances.from(u * mesh.vertices[a] + v * mesh.vertices[b] + w * mesh.vertices[c], outward));
-    deviations[f] = deviation;
+    for (const auto& [at, weight] : places)
+      deviations[f] +=
+          weight *
+          distances.from(at[0] * mesh.vertices[a] + at[1] * mesh.vertices[b] + at[2] * mesh.vertices[c], outward);
   });
   return deviations;
 }
@@ -99,12 +102,10 @@ std::vector<double> signed_deviations(const TetMesh& mesh, const TriangleTree& r
   std::vector<double> deviations(mesh.outer_faces());
   for_each_near_the_last(deviations.size(), reference, [&](std::size_t f, SignedDistances& distances) {
     const SixNodeTriangle nodes = boundary_face_nodes(mesh, mesh.boundary[f]);
-    double deviation = 0;
-    for (const std::array<double, 3>& place : places) {
-      const auto [u, v] = tangents(nodes, place);
-      deviation = farther(deviation, distances.from(point_on(nodes, place), u.cross(v)));
+    for (const auto& [at, weight] : places) {
+      const auto [u, v] = tangents(nodes, at);
+      deviations[f] += weight * distances.from(point_on(nodes, at), u.cross(v));
     }
-    deviations[f] = deviation;
   });
   return deviations;
 }
@@ -121,7 +122,7 @@ std::vector<double> signed_deviations_of_reference(const SurfaceMesh& reference,
   std::vector<double> deviations;
   deviations.reserve(reference.triangles.size());
   for (const auto& [a, b, c] : reference.triangles)
-    deviations.push_back(farther(farther(of_vertices[a], of_vertices[b]), of_vertices[c]));
+    deviations.push_back((of_vertices[a] + of_vertices[b] + of_vertices[c]) / 3);
   return deviations;
 }
 

@@ -9,9 +9,11 @@
 
 namespace scan2fea {
 
-// Model units. Of a triangle the distance of largest size among its corners, the middles of its edges and its own: a
-// sample, as are the distances of measure_deviation. Positive: the mesh lies outside of the reference, by the normals
-// of the mesh, since those of a scan may be anything. O(n log n), parallel; the same for any number of threads.
+// Model units. Of a triangle the mean, by the rule of seven points (corners, middles of edges, its own middle) that is
+// exact for polynomials of third degree: where chords lie inside of a round and their ends outside, it is about 0, as
+// an engineer expects of a mesh that lies in its scan; how far single points lie is what measure_deviation says.
+// Positive: the mesh lies outside of the reference, by the normals of the mesh, since those of a scan may be anything.
+// O(n log n), parallel; the same for any number of threads.
 
 // Per triangle of the mesh. Precondition: it has an area.
 std::vector<double> signed_deviations(const SurfaceMesh& mesh, const TriangleTree& reference);
@@ -25,7 +27,7 @@ std::vector<double> signed_deviations(const TetMesh& mesh, const TriangleTree& r
 std::vector<double> signed_deviations_of_nodes(const SurfaceMesh& mesh, const TriangleTree& reference);
 std::vector<double> signed_deviations_of_nodes(const TetMesh& mesh, const TriangleTree& reference);
 
-// Per triangle of the reference, from its corners to the mesh, with the same meaning of the sign. `tree` is the mesh's.
+// Per triangle of the reference the mean of its corners' distances to the mesh, with the same meaning of the sign. `tree` is the mesh's.
 std::vector<double> signed_deviations_of_reference(const SurfaceMesh& reference, const SurfaceMesh& mesh,
                                                    const TriangleTree& tree);
 

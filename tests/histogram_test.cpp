@@ -44,7 +44,7 @@ TEST(Histogram, StepsTellTheBars) {
   }
 }
 
-TEST(Histogram, ScalesAroundZeroHoldAllValues) {
+TEST(Histogram, ScalesAroundZeroHoldAllOfFewValues) {
   for (const std::vector<double>& values : {std::vector<double>{0.003, -0.0181}, {-1e9, 3}, {1e-30}, {0, 0}, {}}) {
     const BarScale scale = scale_around_zero(values, 1e-6);
     EXPECT_GE(scale.high, 1e-6);
@@ -52,6 +52,18 @@ TEST(Histogram, ScalesAroundZeroHoldAllValues) {
     EXPECT_EQ(scale.bars % 2, 1);
     for (const double value : values) EXPECT_LE(std::abs(value), scale.high);
   }
+}
+
+// As where one hole was closed.
+TEST(Histogram, FewThatAreFarAwaySetNoScale) {
+  std::vector<double> values;
+  for (int i = 0; i < 1000; ++i) values.push_back(i < 995 ? 0.1 * std::sin(i) : -30);
+  const BarScale scale = scale_around_zero(values, 1e-6);
+  EXPECT_GE(scale.high, 0.0999);
+  EXPECT_LT(scale.high, 0.2);
+  const MeasuredElements m = count_elements("deviation", "triangles", values, scale);
+  EXPECT_GE(m.counts.front(), 5U);
+  EXPECT_EQ(m.beyond, 5U);
 }
 
 }  // namespace

@@ -117,6 +117,11 @@ TEST(Legend, TellsTheColourOfAValue) {
   }
 }
 
+TEST(Legend, IsOpenWhereValuesLieBeyondIt) {
+  EXPECT_FALSE(colours_of(-2, 2, {-2, 0, 2}).legend.is_open);
+  EXPECT_TRUE(colours_of(-2, 2, {-2, 0, 2.1}).legend.is_open);
+}
+
 TEST(Legend, HasAsManyNamesAsThereIsRoomFor) {
   Legend legend{.title = "Set of faces"};
   for (int i = 0; i < 100; ++i) legend.names.push_back({"FACE_" + std::to_string(i), i % 2 == 0 ? red : blue});

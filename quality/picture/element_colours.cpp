@@ -58,7 +58,12 @@ ElementColours colours_of_measure(const MeasuredElements& measure, std::string t
   } else {
     colours.of_faces = std::move(list);
   }
-  colours.legend = {.title = std::move(title), .low = measure.scale.low, .high = measure.scale.high};
+  colours.legend = {.title = std::move(title),
+                    .low = measure.scale.low,
+                    .high = measure.scale.high,
+                    .ramp = {},
+                    .is_open = measure.beyond > 0,
+                    .names = {}};
   const int last = measure.scale.bars * measure.scale.steps_per_bar() - 1;
   constexpr int stops = 256;
   for (int i = 0; i < stops; ++i)

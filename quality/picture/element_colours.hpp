@@ -19,6 +19,7 @@ struct Legend {
   std::string title;
   double low = 0, high = 1;
   std::vector<Rgb> ramp;  // from low to high
+  bool is_open = false;   // what lies beyond has the colours of the ends
   struct Entry {
     std::string name;
     Rgb colour;

@@ -59,6 +59,8 @@ void draw_bar(Raster& raster, const Legend& legend, double left, double top, dou
   }
 }
 
+constexpr const char* of_the_beyond = "ends: and beyond";
+
 void draw_names(Raster& raster, const Legend& legend, double left, double top, double em) {
   constexpr double line = 1.6;
   const auto room = static_cast<std::size_t>(std::max(1.0, (raster.height - top - em) / (line * em)));
@@ -80,6 +82,7 @@ std::uint32_t legend_width(const Legend& legend, std::uint32_t height) {
   double width = text_width(legend.title, em);
   if (!legend.ramp.empty())
     for (const Tick& tick : ticks_of(legend)) width = std::max(width, 1.8 * em + text_width(tick.text, em));
+  if (legend.is_open) width = std::max(width, text_width(of_the_beyond, em));
   for (const Legend::Entry& entry : legend.names) width = std::max(width, 1.5 * em + text_width(entry.name, em));
   return static_cast<std::uint32_t>(std::ceil(std::min(width, most) + 1.5 * em));
 }
@@ -96,6 +99,7 @@ Raster with_legend(const Raster& picture, const Legend& legend) {
   if (legend.empty()) return raster;
   const double em = letter_height(picture.height), left = picture.width + 0.5 * em;
   draw_text(raster, legend.title, left, 1.8 * em, em, ink);
+  if (legend.is_open) draw_text(raster, of_the_beyond, left, raster.height - 0.6 * em, em, ink);
   if (!legend.ramp.empty())
     draw_bar(raster, legend, left, 3.2 * em, em);
   else
