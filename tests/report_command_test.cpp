@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace scan2fea {
@@ -111,7 +113,43 @@ TEST_F(ReportCommand, CompareMeasuresTheSecondFromTheFirstAndBothFromTheReferenc
   EXPECT_EQ(report["compared"]["first"]["surface"], figures("check " + quoted("a.ply"))["surface"]);
   ASSERT_EQ(run_command("compare " + quoted("a.ply") + " " + quoted("b.ply") + " --report " + quoted("r")).exit_code,
             0);
-  EXPECT_THAT(contents(path("r/report.html")), HasSubstr("a.ply and b.ply"));
+  const std::string page = contents(path("r/report.html"));
+  EXPECT_THAT(page, HasSubstr("a.ply and b.ply"));
+  EXPECT_THAT(page, HasSubstr("The second mesh, <code>" + path("b.ply") + "</code>, is closed"));
+  EXPECT_THAT(page, HasSubstr("Worst element of <code>" + path("b.ply")));
+  EXPECT_THAT(page, HasSubstr("first mesh: what the second is measured from"));
+}
+
+// As it is printed, where the first run's files are.
+TEST_F(ReportCommand, ThePrintedCommandMakesTheSameBytesAgain) {
+  write_ball("ball.ply");
+  ASSERT_EQ(run_command("run " + quoted("ball.ply") + " -o " + quoted("part.inp") + " --faces 500 --quiet --report " +
+                        quoted("r"))
+                .exit_code,
+            0);
+  const std::string page = contents(path("r/report.html")), first = contents(path("part.inp"));
+  const std::size_t begin = page.find("scan2fea run ", page.find("id=\"command\"")) + std::string("scan2fea ").size();
+  const std::string again = page.substr(begin, page.find("</pre>", begin) - begin);
+  EXPECT_EQ(run_command(again).exit_code, 0) << again;
+  EXPECT_EQ(contents(path("part.inp")), first);
+}
+
+TEST_F(ReportCommand, TheVerdictIsNoLessThanWhatThePageShows) {
+  write_surface(analytic::sphere(10, 2), path("coarse.ply"));
+  write_ball("ball.ply");
+  const json report = figures("check " + quoted("coarse.ply") + " --reference " + quoted("ball.ply"));
+  const double largest =
+      report["deviation"]["hausdorff_pct_diagonal"].get<double>() / 100 * report["reference"]["diagonal"].get<double>();
+  const json& deviation = report["histograms"][0];
+  ASSERT_EQ(deviation["measure"], "deviation");
+  const std::size_t bars = deviation["counts"].size();
+  const double low = deviation["low"], high = deviation["high"];
+  for (std::size_t i = 0; i < bars; ++i) {
+    const double nearer =
+        std::min(std::abs(low + (high - low) * static_cast<double>(i) / static_cast<double>(bars)),
+                 std::abs(low + (high - low) * static_cast<double>(i + 1) / static_cast<double>(bars)));
+    if (deviation["counts"][i] > 0) EXPECT_LE(i == bars / 2 ? 0 : nearer, largest * (1 + 1e-9)) << i;
+  }
 }
 
 TEST_F(ReportCommand, ThePdfIsPartOfAReport) {

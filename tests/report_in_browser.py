@@ -149,7 +149,25 @@ def use_view(page, checked):
     low.clear()
     low.send_keys("0.001", Keys.TAB)
     expect(page.seen() != looks["result"], "another scale looks different")
+    shown = page.seen()
+    for wrong_scale in ("-1", ""):  # below the other end, and none
+        low.clear()
+        low.send_keys(wrong_scale, Keys.TAB)
+        expect("still" in page.get("scale-wrong").text, f"a scale that is none is told: '{wrong_scale}'")
+        expect(page.seen() == shown, "and the one that is shown stays")
     page.click(page.get("scale-reset"))
+    expect(page.get("scale-wrong").text == "", "and forgotten")
+    bar = driver.execute_script("""const box = document.querySelector('#legend svg').getBoundingClientRect();
+      return [...document.querySelectorAll('#legend text')].map((t) => t.getBoundingClientRect()).every((t) => t.left >= box.left && t.right <= box.right)""")
+    expect(bar, "no number of the colour bar is cut off")
+    farthest = driver.find_element(By.CSS_SELECTOR, "button[data-show^=farthest]")
+    page.click(farthest)
+    part = driver.execute_script("return document.querySelector('input[name=part]:checked').value")
+    expect(part == ("both" if farthest.get_attribute("data-show") == "farthest-of-reference" else "result"),
+           f"the farthest place is shown on the one that it is a point of: {part}")
+    expect("farthest" in page.picked(), f"and told: {page.picked()}")
+    page.click(driver.find_element(By.CSS_SELECTOR, "input[name=part][value=result]"))
+    page.click(page.get("clear"))
 
     bars = [b for b in driver.find_elements(By.CSS_SELECTOR, "[data-measure='tetrahedra.scaled_jacobian'] .bar")]
     histogram = next(h for h in checked["histograms"] if h["measure"] == "scaled_jacobian")
@@ -179,8 +197,9 @@ def compare_figures(page, checked):
             expected = expected[key] if isinstance(expected, dict) else None
         expect(json.loads(value) == expected, f"{name} is {expected} by check, {value} on the page")
         if isinstance(expected, float):
-            shown = float(text.replace("\u2009", ""))
-            expect(math.isclose(shown, expected, rel_tol=6e-3, abs_tol=1e-12), f"{name} reads {text}, is {expected}")
+            shown = float(text.replace("\u2009", "").removesuffix("\u00a0%"))
+            rounding = 1e-6 if name.endswith("_difference_pct") else 1e-12
+            expect(math.isclose(shown, expected, rel_tol=6e-3, abs_tol=rounding), f"{name} reads {text}, is {expected}")
         found += 1
     expect(found > 25, f"the page has figures, {found}")
 
@@ -188,6 +207,9 @@ def compare_figures(page, checked):
 def fits(page, what):
     wide = page.driver.execute_script("return [document.documentElement.scrollWidth, window.innerWidth]")
     expect(wide[0] <= wide[1], f"{what}: nothing is wider than the window, {wide}")
+    cut = page.driver.execute_script("""return [...document.querySelectorAll('.scroll')]
+      .filter((e) => e.scrollWidth > e.clientWidth + 1).map((e) => e.textContent.slice(0, 40));""")
+    expect(not cut, f"{what}: no table is cut: {cut}")
 
 
 def contrast_of(page, what):

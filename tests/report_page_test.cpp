@@ -3,10 +3,10 @@
 
 #include "quality/picture/colour_maps.hpp"
 #include "quality/picture/deflate.hpp"
+#include "quality/picture/picture.hpp"
 #include "quality/report_page/html.hpp"
 #include "quality/report_page/packed_arrays.hpp"
 #include "quality/report_page/page_sections.hpp"
-#include "quality/picture/picture.hpp"
 #include "quality/report_page/thinned_view.hpp"
 #include "tests/analytic_meshes.hpp"
 
@@ -193,6 +193,53 @@ TEST(ReportPage, FaultsAreNamedInTheVerdict) {
   EXPECT_THAT(verdict_section(to_json(figures)), HasSubstr("not closed"));
 }
 
+TEST(ReportPage, OneFaultIsInTheSingular) {
+  Json report = to_json(Report{.input = "m", .surface = measure_surface(analytic::sphere(10, 2))});
+  report["surface"]["self_intersections"] = 1;
+  EXPECT_THAT(verdict_section(report), HasSubstr("</data> pair of triangles crosses"));
+  report["surface"]["self_intersections"] = 2;
+  EXPECT_THAT(verdict_section(report), HasSubstr("</data> pairs of triangles cross"));
+}
+
+TEST(Html, PercentIsZeroWithinRoundingAndKnownOrNot) {
+  EXPECT_EQ(html::percent(-2.63e-9), "0\u00a0%");
+  EXPECT_EQ(html::percent(0.0254), "0.0254\u00a0%");
+  EXPECT_EQ(html::percent(nullptr), "not known");
+}
+
+// What the mesh does not tell of, a spike of the reference, is a point of the reference.
+TEST(ReportPage, TheFarthestPointIsOfTheSurfaceThatHasIt) {
+  const SurfaceMesh ball = analytic::sphere(10, 3);
+  SurfaceMesh spiked = ball;
+  spiked.vertices[5] *= 1.3;
+  const auto verdict = [](const SurfaceMesh& mesh, const SurfaceMesh& reference) {
+    Report figures;
+    figures.surface = measure_surface(mesh);
+    figures.deviation = measure_deviation(mesh, reference, {.samples = 1000, .seed = 1});
+    return verdict_section(to_json(figures));
+  };
+  EXPECT_THAT(verdict(ball, spiked), HasSubstr("data-show=\"farthest-of-reference\""));
+  EXPECT_THAT(verdict(spiked, ball), HasSubstr("data-show=\"farthest-of-mesh\""));
+  EXPECT_THAT(verdict(spiked, ball), HasSubstr("at least"));
+}
+
+TEST(ReportPage, StagesTellTheirUnits) {
+  const Json report{{"unit", "mm"},
+                    {"stages",
+                     {{{"name", "simplify"},
+                       {"seconds", 1.0},
+                       {"peak_bytes", 1e6},
+                       {"faces_after", 2494.0},
+                       {"largest_deviation", 0.163699}}}}};
+  EXPECT_THAT(stages_section(report), HasSubstr("Largest deviation at most\u00a00.1637\u00a0mm"));
+  EXPECT_THAT(stages_section(report), HasSubstr("faces after\u00a02494"));
+}
+
+TEST(ReportPage, CausesAndSetsAreTold) {
+  const Json element{{"cause", "beside the surface, on which 3 corners lie"}, {"sets", {"foot", "SALL"}}};
+  EXPECT_EQ(cause_of(element), "beside the surface, on which 3 corners lie; in <code>foot</code>, <code>SALL</code>");
+}
+
 TEST(ReportPage, EveryMeasureIsAFigureWithALabelAndAMeaning) {
   Report full;
   full.surface.emplace();
@@ -215,6 +262,8 @@ TEST(ReportPage, LimitsAreNamedWithTheirSources) {
   EXPECT_THAT(section, HasSubstr("170 or more warning [N]"));
   EXPECT_THAT(section, HasSubstr("<b>[N]</b> Autodesk Nastran"));
   EXPECT_THAT(section, testing::Not(HasSubstr("<b>[V]</b>"))) << "no figure of triangles is shown";
+  figures.deviation.emplace();
+  EXPECT_THAT(measures_section(to_json(figures)), HasSubstr("\u00b10.8 reached by the paper [P]<"));
 }
 
 TEST(ReportPage, GatesTellWhereTheyFailAndWhatTheyAreFrom) {

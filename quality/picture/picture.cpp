@@ -35,8 +35,9 @@ class Projection {
     return middle_ + Vec3(scale_ * right_.dot(d), -scale_ * up_.dot(d), away_.dot(d));
   }
   double brightness(const Vec3& normal) const {
-    constexpr double ambient = 0.38;  // the rest comes from above the eye's left shoulder
-    const Vec3 light = (up_ - 2 * away_ - 0.6 * right_).normalized();
+    // The rest comes from the eye's left shoulder: not far above it, or what is seen from below would be black.
+    constexpr double ambient = 0.45;
+    const Vec3 light = (0.5 * up_ - 2 * away_ - 0.5 * right_).normalized();
     constexpr double of_backs = 0.6;
     const bool is_back = normal.dot(away_) > 0;
     const Vec3 facing = is_back ? Vec3(-normal) : normal;

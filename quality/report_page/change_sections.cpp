@@ -43,8 +43,8 @@ std::string amount_of(const Json& set, const Json& report) {
 }
 
 std::string members_of(const Json& set) {
-  for (const char* kind : {"triangles", "tetrahedra", "nodes"})
-    if (set.contains(kind)) return number(set[kind]) + " " + kind;
+  for (const auto& [kind, one] : {std::pair("triangles", "triangle"), {"tetrahedra", "tetrahedron"}, {"nodes", "node"}})
+    if (set.contains(kind)) return counted(set[kind], one, kind);
   return {};
 }
 
@@ -56,7 +56,7 @@ std::string set_table(const Json& report) {
     const bool of_scan = set.contains("area_of_scan");
     table.row({"<code>" + escaped(name) + "</code>", escaped(set["kind"].get<std::string>()), amount_of(set, report),
                of_scan ? number(set["area_of_scan"], 5) + " " + unit_text(report, 2) : std::string(),
-               of_scan ? number(set["area_difference_pct"], 3) + "\u00a0%" : std::string(), members_of(set),
+               of_scan ? percent(set["area_difference_pct"]) : std::string(), members_of(set),
                set["kind"] == "faces" ? show_button("set", "Show", name) : std::string()});
   }
   return table.text();
@@ -80,7 +80,7 @@ std::string body_table(const Json& report) {
   Table table("Bodies", {"Name", "#Volume, " + unit_text(report, 3), "#Difference from the scan", "#Tetrahedra"});
   for (const Json& body : report["bodies"])
     table.row({"<code>" + escaped(body["name"].get<std::string>()) + "</code>", number(body["volume"], 6),
-               number(body["volume_difference_pct"], 3) + "\u00a0%", number(body["tetrahedra"])});
+               percent(body["volume_difference_pct"]), number(body["tetrahedra"])});
   return table.text();
 }
 
@@ -97,11 +97,22 @@ std::string contact_table(const Json& report) {
   return table.text();
 }
 
-std::string stage_changes(const Json& stage) {
+std::string figure_of_stage(const Json& stage, const std::string& key) {
+  std::string name = stage["name"].get<std::string>();
+  std::ranges::replace(name, ' ', '_');
+  return "stages." + name + "." + key;
+}
+
+std::string stage_changes(const Json& stage, const Json& report, const std::vector<NamedFigure>& figures) {
   std::string text;
   for (const auto& [key, value] : stage.items()) {
     if (!value.is_number() || key == "seconds" || key == "peak_bytes") continue;
-    text += (text.empty() ? "" : "; ") + words(key) + "\u00a0" + number(value, 6);
+    const auto figure = std::ranges::find(figures, figure_of_stage(stage, key), &NamedFigure::name);
+    const bool is_known = figure != figures.end();
+    const std::string label = is_known && !figure->label.empty() ? escaped(figure->label) : words(key);
+    const std::string unit = is_known ? unit_behind(report, figure->unit) : std::string();
+    // A count, or what is measured.
+    text += (text.empty() ? "" : "; ") + label + "\u00a0" + number(value, unit.empty() ? 6 : 4) + unit;
   }
   if (stage.contains("remarks"))
     for (std::size_t i = 0; i < std::min(stage["remarks"].size(), most_rows); ++i)
@@ -128,9 +139,10 @@ std::string sets_section(const Json& report) {
 std::string stages_section(const Json& report) {
   if (!report.contains("stages")) return {};
   Table table("", {"Stage", "#Time, s", "#Memory, MB", "What it changed, and where"});
+  const std::vector<NamedFigure> figures = all_figures();
   for (const Json& stage : report["stages"])
     table.row({words(stage["name"].get<std::string>()), number(stage["seconds"], 3),
-               number(stage["peak_bytes"].get<double>() / 1e6, 4), stage_changes(stage)});
+               number(stage["peak_bytes"].get<double>() / 1e6, 4), stage_changes(stage, report, figures)});
   return "<h2 id=\"stages\">Stages</h2>\n" + table.text();
 }
 

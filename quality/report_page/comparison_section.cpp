@@ -13,6 +13,14 @@ std::string difference(const Json& first, const Json& second) {
   return number(Json(second.get<double>() - first.get<double>()), 3);
 }
 
+// The file that both are measured from, too; empty where there is none.
+std::string reference_of(const Json& report) {
+  if (find_figure(report, "compared.first.deviation") == nullptr || !report.contains("inputs")) return {};
+  for (const Json& input : report["inputs"])
+    if (input["role"] == "reference") return escaped(input["file"].get<std::string>());
+  return {};
+}
+
 }  // namespace
 
 std::string comparison_section(const Json& report) {
@@ -20,24 +28,32 @@ std::string comparison_section(const Json& report) {
   const Json &first = report["compared"]["first"], &second = report["compared"]["second"];
   const auto name = [](const Json& column) { return column["input"].get<std::string>(); };
   Table table("", {"Measure", "#" + name(first), "#" + name(second), "#Second less first"});
-  const auto row = [&](std::string_view label, std::string_view figure) {
+  const auto row = [&](std::string_view label, std::string_view figure, const std::string& unit = {}) {
     const Json *a = find_figure(first, figure), *b = find_figure(second, figure);
     if (a == nullptr && b == nullptr) return;
-    const auto cell = [](const Json* value) {
-      return value == nullptr ? std::string("not measured")
-                              : "<data value=\"" + escaped(value->dump()) + "\">" + number(*value, 5) + "</data>";
+    const auto with_unit = [&](const Json& value, const std::string& text) {
+      return value.is_number() ? text + unit_behind(report, unit) : text;
     };
-    table.row({escaped(label), cell(a), cell(b), a != nullptr && b != nullptr ? difference(*a, *b) : std::string()},
+    const auto cell = [&](const Json* value) {
+      if (value == nullptr) return std::string("not measured");
+      return "<data value=\"" + escaped(value->dump()) + "\">" +
+             (unit == "%" ? percent(*value, 5) : with_unit(*value, number(*value, 5))) + "</data>";
+    };
+    table.row({escaped(label), cell(a), cell(b),
+               a != nullptr && b != nullptr ? with_unit(*a, difference(*a, *b)) : std::string()},
               "data-figure=\"" + std::string(figure) + "\"");
   };
   row("Triangles of the surface", "surface.faces");
   row("Nodes", "volume_mesh.nodes");
   row("Tetrahedra", "volume_mesh.tetrahedra");
   row("Order", "volume_mesh.order");
-  for (const NamedFigure& measure : shown_figures()) row(measure.label, measure.name);
-  return "<h2 id=\"comparison\">Both meshes</h2>\n<p>Distances" +
-         std::string(find_figure(first, "deviation") != nullptr ? " in this table are from the reference; those" : "") +
-         " above and in the view are of the second mesh from the first.</p>\n" + table.text();
+  for (const NamedFigure& measure : shown_figures()) row(measure.label, measure.name, measure.unit);
+  const std::string reference = reference_of(report);
+  return "<h2 id=\"comparison\">Both meshes</h2>\n<p>" +
+         (reference.empty() ? "Distances are"
+                            : "Distances and differences in this table are of each mesh from the reference, <code>" +
+                                  reference + "</code>; those") +
+         " in the verdict, in the view and under Measures are of the second mesh from the first.</p>\n" + table.text();
 }
 
 }  // namespace scan2fea

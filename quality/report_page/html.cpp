@@ -5,6 +5,14 @@
 
 namespace scan2fea::html {
 
+namespace {
+
+std::string data_of(std::string_view name, const Json& value, const std::string& text) {
+  return "<data data-figure=\"" + escaped(name) + "\" value=\"" + escaped(value.dump()) + "\">" + text + "</data>";
+}
+
+}  // namespace
+
 std::string number(const Json& value, int digits) {
   if (value.is_null()) return "none";
   if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
@@ -40,8 +48,22 @@ const Json* find_figure(const Json& report, std::string_view name) {
 std::string figure(const Json& report, std::string_view name, int digits) {
   const Json* value = find_figure(report, name);
   if (value == nullptr) return {};
-  return "<data data-figure=\"" + escaped(name) + "\" value=\"" + escaped(value->dump()) + "\">" +
-         number(*value, digits) + "</data>";
+  return data_of(name, *value, number(*value, digits));
+}
+
+std::string percent_figure(const Json& report, std::string_view name, int digits) {
+  const Json* value = find_figure(report, name);
+  return value == nullptr ? std::string() : data_of(name, *value, percent(*value, digits));
+}
+
+std::string percent(const Json& value, int digits) {
+  constexpr double rounding = 1e-6;
+  if (value.is_null()) return "not known";
+  return (std::abs(value.get<double>()) < rounding ? "0" : number(value, digits)) + "\u00a0%";
+}
+
+std::string counted(const Json& count, std::string_view one, std::string_view many) {
+  return number(count) + " " + std::string(count == 1 ? one : many);
 }
 
 std::string place(const Json& point, int digits) {
@@ -68,8 +90,11 @@ Table::Table(std::string_view caption, std::vector<std::string> columns) : colum
 
 void Table::row(const std::vector<std::string>& cells, std::string_view attributes) {
   body_ += "<tr" + (attributes.empty() ? std::string() : " " + std::string(attributes)) + ">";
-  for (std::size_t i = 0; i < cells.size(); ++i)
-    body_ += std::string("<td") + (columns_[i].starts_with('#') ? " class=\"number\">" : ">") + cells[i] + "</td>";
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const bool is_number = columns_[i].starts_with('#');
+    body_ += "<td data-column=\"" + escaped(std::string_view(columns_[i]).substr(is_number ? 1 : 0)) + "\"" +
+             (is_number ? " class=\"number\">" : ">") + cells[i] + "</td>";
+  }
   body_ += "</tr>\n";
 }
 

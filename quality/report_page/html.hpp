@@ -21,7 +21,14 @@ std::string number(const Json& value, int digits = 4);
 // The figure of this name ("surface.edge_ratio.mean") as a <data> that holds the whole of it, so that a script, and a
 // test, finds what the text rounds. An empty text where the report has no such figure.
 std::string figure(const Json& report, std::string_view name, int digits = 4);
+std::string percent_figure(const Json& report, std::string_view name, int digits = 3);  // with the sign, see percent
 const Json* find_figure(const Json& report, std::string_view name);
+
+// "0.3 %"; what is nothing but rounding is 0, and a null, of what has no volume, is "not known".
+std::string percent(const Json& value, int digits = 3);
+
+// "1 element is", "2 elements are": the count and the words of one, or of many.
+std::string counted(const Json& count, std::string_view one, std::string_view many);
 
 // "(1.5, 0, -2)", for a list of three numbers.
 std::string place(const Json& point, int digits = 5);
@@ -29,7 +36,8 @@ std::string place(const Json& point, int digits = 5);
 // A button that shows a place in the view: what the script looks for.
 std::string show_button(std::string_view what, std::string_view label, std::string_view data);
 
-// A table of these columns, a name's first letter telling how it is set: "#Area" to the right, as numbers are.
+// A table of these columns, a name's first letter telling how it is set: "#Area" to the right, as numbers are. Each
+// cell knows its column's name, which stands beside it where a screen is too narrow for a table.
 class Table {
  public:
   Table(std::string_view caption, std::vector<std::string> columns);

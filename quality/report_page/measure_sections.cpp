@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <set>
 
 namespace scan2fea {
@@ -56,15 +57,17 @@ std::string in_model_units(const Json& report, const NamedFigure& measure, const
   return number(value.get<double>() / 100 * diagonal->get<double>(), 4) + " " + unit_text(report);
 }
 
-std::string unit_of(const Json& report, const std::string& unit) {
-  if (unit.empty()) return {};
-  if (unit == "degrees") return "\u00b0";
-  const int power = unit == "length" ? 1 : unit == "area" ? 2 : unit == "volume" ? 3 : 0;
-  return "\u00a0" + (power > 0 ? unit_text(report, power) : escaped(unit));
+// The paper's limits of differences are the same in either direction.
+bool is_either_way(const MeasureLimit& limit) {
+  return limit.value != 0 && std::ranges::any_of(measure_limits(), [&](const MeasureLimit& other) {
+           return other.figure == limit.figure && other.source == limit.source && other.value == -limit.value;
+         });
 }
 
 // "above 165 warning": where a mesh is not as the limit wants it.
 std::string phrase(const MeasureLimit& limit) {
+  if (limit.beyond == Beyond::worse_than_paper && is_either_way(limit))
+    return "\u00b1" + number(std::abs(limit.value), 6) + " reached by the paper";
   const std::string value = number(limit.value, 6);
   const bool is_from_above = limit.comparison == Comparison::at_most || limit.comparison == Comparison::below;
   if (limit.beyond == Beyond::is_unusual) return (is_from_above ? "up to " : "from ") + value + " acceptable";
@@ -116,6 +119,13 @@ std::string shape_cells(const Json& element, const char* key) {
 
 }  // namespace
 
+std::string unit_behind(const Json& report, const std::string& unit) {
+  if (unit.empty()) return {};
+  if (unit == "degrees") return "\u00b0";
+  const int power = unit == "length" ? 1 : unit == "area" ? 2 : unit == "volume" ? 3 : 0;
+  return "\u00a0" + (power > 0 ? unit_text(report, power) : escaped(unit));
+}
+
 std::vector<NamedFigure> shown_figures() {
   const std::vector<NamedFigure> all = all_figures();
   std::vector<NamedFigure> figures;
@@ -129,11 +139,20 @@ std::string measures_section(const Json& report) {
   for (const NamedFigure& measure : shown_figures()) {
     const Json* value = find_figure(report, measure.name);
     if (value == nullptr) continue;
-    table.row({escaped(measure.label), figure(report, measure.name, 5) + unit_of(report, measure.unit),
-               in_model_units(report, measure, *value), escaped(measure.meaning),
+    const std::string text = measure.unit == "%" ? percent_figure(report, measure.name, 5)
+                             : value->is_null()  ? figure(report, measure.name)
+                                                 : figure(report, measure.name, 5) + unit_behind(report, measure.unit);
+    table.row({escaped(measure.label), text, in_model_units(report, measure, *value), escaped(measure.meaning),
                escaped(limits_of(measure.name, used))});
   }
-  return "<h2 id=\"measures\">Measures</h2>\n<div class=\"measures\">" + table.text() + "</div>" + sources(used);
+  const std::string whose =
+      report.contains("compared")
+          ? "<p>Of the second mesh, <code>" + escaped(report["compared"]["second"]["input"].get<std::string>()) +
+                "</code>; distances and differences are from the first, <code>" +
+                escaped(report["compared"]["first"]["input"].get<std::string>()) + "</code>.</p>\n"
+          : std::string();
+  return "<h2 id=\"measures\">Measures</h2>\n" + whose + "<div class=\"measures\">" + table.text() + "</div>" +
+         sources(used);
 }
 
 std::string worst_section(const Json& report) {
@@ -146,8 +165,6 @@ std::string worst_section(const Json& report) {
                                                        "Place", "Likely cause", ""});
   for (std::size_t i = 0; i < list->size(); ++i) {
     const Json& element = (*list)[i];
-    std::string cause = escaped(element["cause"].get<std::string>());
-    for (const Json& set : element["sets"]) cause += " <code>" + escaped(set.get<std::string>()) + "</code>";
     const std::string element_number = "<data value=\"" + element["element"].dump() + "\">" +
                                        std::to_string(element["element"].get<std::uint64_t>()) + "</data>";
     const std::string index = std::to_string(i);
@@ -155,7 +172,8 @@ std::string worst_section(const Json& report) {
         {element_number, shape_cells(element, is_volume ? "scaled_jacobian" : "min_angle_deg"),
          is_volume ? number(element["min_dihedral_deg"]) + "\u00b0 to " + number(element["max_dihedral_deg"]) + "\u00b0"
                    : number(element["max_angle_deg"]) + "\u00b0",
-         shape_cells(element, "edge_ratio"), place(element["place"], 5), cause, show_button("worst", "Show", index)},
+         shape_cells(element, "edge_ratio"), place(element["place"], 5), cause_of(element),
+         show_button("worst", "Show", index)},
         "data-worst=\"" + index + "\"");
   }
   return "<h2 id=\"worst\">Worst elements</h2>\n<p>The " + std::to_string(list->size()) + " of " +

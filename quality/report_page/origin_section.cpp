@@ -23,9 +23,13 @@ std::string command_lines(const Json& report) {
   std::string line;
   for (const Json& word : report["command"]["arguments"])
     line += (line.empty() ? "" : " ") + for_shell(word.get<std::string>());
+  // Its files are there.
+  if (std::ranges::find(report["command"]["arguments"], "--force") == report["command"]["arguments"].end())
+    line += " --force";
   return "<h3>Make it again</h3>\n<pre id=\"command\">cd " +
          escaped(for_shell(report["command"]["folder"].get<std::string>())) + "\n" + escaped(line) +
-         "</pre>\n<p>The same version of the program writes the same bytes, for any number of threads.</p>\n";
+         "</pre>\n<p>The same version of the program writes the same bytes, for any number of threads, over those that "
+         "are there.</p>\n";
 }
 
 bool has_failed(const Json& report) {
@@ -53,12 +57,14 @@ std::string size_table(const Json& report) {
   Table table("Sizes",
               {"What", "#Vertices", "#Triangles", "#Box, " + unit_text(report), "#Diagonal, " + unit_text(report)});
   if (report.contains("reference"))
-    table.row({"reference: what the figures compare with", number(report["reference"]["vertices"]),
-               number(report["reference"]["triangles"]), size_row(report["reference"]),
-               number(report["reference"]["diagonal"], 6)});
+    table.row({report.contains("compared") ? "first mesh: what the second is measured from"
+                                           : "reference: what the figures compare with",
+               number(report["reference"]["vertices"]), number(report["reference"]["triangles"]),
+               size_row(report["reference"]), number(report["reference"]["diagonal"], 6)});
   if (report.contains("size"))
-    table.row({"surface of the mesh", figure(report, "surface.vertices"), figure(report, "surface.faces"),
-               size_row(report["size"]), number(report["size"]["diagonal"], 6)});
+    table.row({report.contains("compared") ? "surface of the second mesh" : "surface of the mesh",
+               figure(report, "surface.vertices"), figure(report, "surface.faces"), size_row(report["size"]),
+               number(report["size"]["diagonal"], 6)});
   return table.text();
 }
 

@@ -25,6 +25,15 @@ std::vector<NamedFigure> shown_figures();
 // "mm", "mm\u00b2"; where the unit is not known, "model units".
 std::string unit_text(const Json& report, int power = 1);
 
+// Of the schema's unit "length", "degrees", ...: what is set behind a number. Empty where there is none.
+std::string unit_behind(const Json& report, const std::string& unit);
+
+// Of one of the worst elements: its likely cause, and the sets that it is in.
+std::string cause_of(const Json& element);
+
+// Whether the farthest of all measured points is one of the reference, from which the mesh is far, or one of the mesh.
+bool farthest_is_on_reference(const Json& report);
+
 // "0.0123 mm (0.18 % of the diagonal)", of a figure in per cent of the reference's diagonal.
 std::string distance_text(const Json& report, const std::string& figure);
 

@@ -31,14 +31,20 @@ std::string filled_in(std::string_view frame, const std::map<std::string_view, s
   }
 }
 
-std::optional<Vec3> worst_place(const Json& report) {
-  for (const char* name : {"deviation.farthest_point", "worst_elements.elements"}) {
-    const Json* found = html::find_figure(report, name);
-    if (found == nullptr || found->empty()) continue;
-    const Json& place = found->front().is_object() ? found->front()["place"] : *found;
-    if (place[0].is_number()) return Vec3(place[0], place[1], place[2]);
-  }
-  return {};
+std::optional<CloseUp> close_up(const Json& report) {
+  const auto at = [](const Json& place, const std::string& title) -> std::optional<CloseUp> {
+    if (!place[0].is_number()) return {};
+    return CloseUp{Vec3(place[0], place[1], place[2]), title + ", at " + html::place(place)};
+  };
+  if (const Json* farthest = html::find_figure(report, "deviation.farthest_point"))
+    return at(*farthest, std::string("Where ") + (farthest_is_on_reference(report)
+                                                      ? "a point of the reference is farthest from the mesh"
+                                                      : "the mesh is farthest from the reference"));
+  const Json* worst = html::find_figure(report, "worst_elements.elements");
+  if (worst == nullptr || worst->empty()) return {};
+  const bool is_volume = worst->front().contains("scaled_jacobian");
+  return at(worst->front()["place"], (is_volume ? "The surface before the worst element, " : "The worst element, ") +
+                                         worst->front()["element"].dump());
 }
 
 std::string legend_text(const MeasuredElements& measure, const Json& report) {
@@ -51,10 +57,13 @@ std::string legend_text(const MeasuredElements& measure, const Json& report) {
     std::snprintf(colour, sizeof colour, "%srgb(%d,%d,%d)", i > 0 ? "," : "", c[0], c[1], c[2]);
     colours += colour;
   }
-  const std::string what = measure.measure == "deviation"
-                               ? "Deviation, " + unit_text(report) + "; positive: outside of the reference"
-                           : measure.measure == "scaled_jacobian" ? "Scaled Jacobian"
-                                                                  : "Edge ratio";
+  std::string what = measure.measure == "deviation" ? "Deviation, " + unit_text(report) +
+                                                          ", mean of each triangle; positive: outside of the reference"
+                     : measure.measure == "scaled_jacobian" ? "Scaled Jacobian"
+                                                            : "Edge ratio";
+  if (measure.beyond > 0)
+    what += "; of the " + measure.of + " " + html::counted(measure.beyond, "lies", "lie") +
+            " beyond, in the colours of the ends";
   return "<figcaption class=\"scale\"><span>" + html::number(measure.scale.low) +
          "</span><span class=\"ramp\" style=\"background:linear-gradient(to right," + colours + ")\"></span><span>" +
          html::number(measure.scale.high) + "</span> <span>" + what + "</span></figcaption>\n";
@@ -64,7 +73,7 @@ std::string stills(const ReportPageInput& input) {
   if (input.histograms.empty()) return {};
   std::string text;
   for (const StillPicture& picture :
-       still_pictures(input.measures, input.volume_mesh, input.histograms, worst_place(input.report)))
+       still_pictures(input.measures, input.volume_mesh, input.histograms, close_up(input.report)))
     text += "<figure><img alt=\"" + html::escaped(picture.title) +
             "\" width=\"640\" height=\"480\" src=\"data:image/png;base64," + base64(picture.png) + "\"><figcaption>" +
             html::escaped(picture.title) + "</figcaption></figure>\n";

@@ -24,7 +24,7 @@ const std::vector<Direction>& directions() {
   return list;
 }
 
-PictureView close_up(const SurfaceMesh& mesh, const Vec3& place) {
+PictureView near_to(const SurfaceMesh& mesh, const Vec3& place) {
   const Triangle& face = mesh.triangles[TriangleTree(mesh).closest(place).triangle];
   const Vec3 outward = area_vector(mesh, face).stableNormalized();
   constexpr double edges_across = 16;
@@ -49,7 +49,7 @@ const MeasuredElements& pictured_measure(const std::vector<MeasuredElements>& hi
 
 std::vector<StillPicture> still_pictures(const ElementMeasures& measures, const TetMesh* volume_mesh,
                                          const std::vector<MeasuredElements>& histograms,
-                                         const std::optional<Vec3>& worst_place) {
+                                         const std::optional<CloseUp>& close_up) {
   std::vector<StillPicture> pictures;
   const SurfaceMesh& mesh = measures.faces;
   if (mesh.triangles.empty()) return pictures;
@@ -58,15 +58,15 @@ std::vector<StillPicture> still_pictures(const ElementMeasures& measures, const 
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) behind.push_back(volume_mesh->boundary[f].tetrahedron);
   const std::vector<Rgb> colours = colours_of_measure(pictured_measure(histograms), {}, behind).of_faces;
   const std::size_t views = directions().size();
-  pictures.resize(views + (worst_place ? 1 : 0));
+  pictures.resize(views + (close_up ? 1 : 0));
   tbb::parallel_for(std::size_t{0}, pictures.size(), [&](std::size_t i) {
     if (i < views) {
       const Direction& direction = directions()[i];
       const PictureView view = view_of_all(mesh, direction.towards, Vec3::UnitZ());
       pictures[i] = {draw_picture(mesh, colours, view), direction.title};
     } else {
-      const PictureOptions options{.edges = true, .ring = *worst_place};
-      pictures[i] = {draw_picture(mesh, colours, close_up(mesh, *worst_place), options), "The worst place"};
+      const PictureOptions options{.edges = true, .ring = close_up->place};
+      pictures[i] = {draw_picture(mesh, colours, near_to(mesh, close_up->place), options), close_up->title};
     }
   });
   return pictures;

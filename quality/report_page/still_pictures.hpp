@@ -15,11 +15,17 @@ struct StillPicture {
   std::string title;
 };
 
-// Coloured by deviation where there is a reference, otherwise by the shape of the elements. `worst_place`: where the
-// close-up looks. None of a mesh without triangles.
+// Where the close-up looks, and what it shows.
+struct CloseUp {
+  Vec3 place;
+  std::string title;
+};
+
+// Coloured by deviation where there is a reference, otherwise by the shape of the elements. None of a mesh without
+// triangles.
 std::vector<StillPicture> still_pictures(const ElementMeasures& measures, const TetMesh* volume_mesh,
                                          const std::vector<MeasuredElements>& histograms,
-                                         const std::optional<Vec3>& worst_place);
+                                         const std::optional<CloseUp>& close_up);
 
 // What their colours mean: the measure, as in `histograms`.
 const MeasuredElements& pictured_measure(const std::vector<MeasuredElements>& histograms);

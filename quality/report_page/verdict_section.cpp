@@ -14,6 +14,10 @@ struct Status {
   std::string text;
 };
 
+std::string second_name(const Json& report) {
+  return "<code>" + escaped(report["compared"]["second"]["input"].get<std::string>()) + "</code>";
+}
+
 // What no mesher or solver takes.
 std::vector<std::string> faults(const Json& report) {
   std::vector<std::string> list;
@@ -21,16 +25,15 @@ std::vector<std::string> faults(const Json& report) {
     const Json* found = find_figure(report, name);
     return found != nullptr && found->is_boolean() && found->get<bool>() == value;
   };
-  const auto counted = [&](const char* name) {
+  const auto add_count = [&](const char* name, const char* one, const char* many) {
     const Json* found = find_figure(report, name);
-    return found != nullptr && found->is_number() && found->get<double>() > 0;
+    if (found == nullptr || !found->is_number() || !(found->get<double>() > 0)) return;
+    list.push_back(figure(report, name) + (*found == 1 ? one : many));
   };
   if (is("surface.closed", false)) list.emplace_back("not closed");
   if (is("surface.manifold", false)) list.emplace_back("not manifold");
-  if (counted("surface.self_intersections"))
-    list.push_back(figure(report, "surface.self_intersections") + " pairs of triangles cross");
-  if (counted("volume_mesh.inverted"))
-    list.push_back(figure(report, "volume_mesh.inverted") + " elements are inside out");
+  add_count("surface.self_intersections", " pair of triangles crosses", " pairs of triangles cross");
+  add_count("volume_mesh.inverted", " element is inside out", " elements are inside out");
   return list;
 }
 
@@ -39,10 +42,12 @@ Status status_of(const Json& report) {
   std::size_t failed = 0;
   for (const Json& gate : gates) failed += gate["pass"].get<bool>() ? 0 : 1;
   const std::vector<std::string> wrong = faults(report);
-  const std::string mesh = report.contains("volume_mesh") ? "mesh" : "surface";
-  const std::string soundness = wrong.empty() ? "The " + mesh + " is closed, manifold and free of crossings" +
-                                                    (mesh == "mesh" ? " and inverted elements" : "")
-                                              : "The " + mesh + " has faults: " + joined(wrong);
+  const bool is_volume = report.contains("volume_mesh");
+  const std::string mesh = report.contains("compared") ? "The second mesh, " + second_name(report) + ","
+                                                       : std::string(is_volume ? "The mesh" : "The surface");
+  const std::string soundness =
+      wrong.empty() ? mesh + " is closed, manifold and free of crossings" + (is_volume ? " and inverted elements" : "")
+                    : mesh + " has faults: " + joined(wrong);
   if (failed > 0)
     return {"bad", std::to_string(failed) + " of " + std::to_string(gates.size()) + " gates failed. " + soundness};
   if (!gates.empty())
@@ -65,12 +70,14 @@ std::string distance_fact(const Json& report) {
     return fact("Distance from a reference", "not measured", "no reference was given");
   }
   const Json& at = report["deviation"]["farthest_point"];
-  return fact(report.contains("compared") ? "Farthest from the first mesh" : "Farthest from the reference",
-              distance_text(report, "deviation.hausdorff_pct_diagonal"),
-              "at " + place(at) + " " + show_button("place", "Show", at.dump()) + "<br>RMS " +
-                  distance_text(report, "deviation.rms_pct_diagonal") + "<br>volume " +
-                  figure(report, "deviation.volume_difference_pct", 3) + "\u00a0%, area " +
-                  figure(report, "deviation.area_difference_pct", 3) + "\u00a0%");
+  const bool is_on_reference = farthest_is_on_reference(report);
+  const std::string first = report.contains("compared") ? "first mesh" : "reference";
+  return fact("Farthest from the " + first, "at least " + distance_text(report, "deviation.hausdorff_pct_diagonal"),
+              "a point of the " + (is_on_reference ? first : "mesh") + ", at " + place(at) + " " +
+                  show_button(is_on_reference ? "farthest-of-reference" : "farthest-of-mesh", "Show", at.dump()) +
+                  "<br>RMS " + distance_text(report, "deviation.rms_pct_diagonal") + "<br>volume " +
+                  percent_figure(report, "deviation.volume_difference_pct") + ", area " +
+                  percent_figure(report, "deviation.area_difference_pct"));
 }
 
 std::string worst_fact(const Json& report) {
@@ -78,12 +85,12 @@ std::string worst_fact(const Json& report) {
   if (list == nullptr || list->empty()) return {};
   const Json& worst = list->front();
   const bool is_volume = worst.contains("scaled_jacobian");
-  return fact("Worst element",
+  return fact("Worst element" + (report.contains("compared") ? " of " + second_name(report) : std::string()),
               "<span id=\"worst-number\">" + std::to_string(worst["element"].get<std::uint64_t>()) + "</span> " +
                   show_button("worst", "Show", "0"),
               (is_volume ? "scaled Jacobian " + number(worst["scaled_jacobian"])
                          : "smallest angle " + number(worst["min_angle_deg"]) + "\u00b0") +
-                  " at " + place(worst["place"]) + "<br>" + escaped(worst["cause"].get<std::string>()));
+                  " at " + place(worst["place"]) + "<br>" + cause_of(worst));
 }
 
 std::string made_up_fact(const Json& report) {
@@ -146,6 +153,19 @@ std::string unit_text(const Json& report, int power) {
     return power == 1 ? "model units" : power == 2 ? "model units\u00b2" : "model units\u00b3";
   const std::string unit = escaped(report["unit"].get<std::string>());
   return unit + (power == 1 ? "" : power == 2 ? "\u00b2" : "\u00b3");
+}
+
+std::string cause_of(const Json& element) {
+  std::string sets;
+  for (const Json& set : element["sets"])
+    sets += (sets.empty() ? "; in " : ", ") + ("<code>" + escaped(set.get<std::string>()) + "</code>");
+  return escaped(element["cause"].get<std::string>()) + sets;
+}
+
+bool farthest_is_on_reference(const Json& report) {
+  const Json& deviation = report["deviation"];
+  const auto of = [&](const char* side) { return deviation[side]["hausdorff_pct_diagonal"]; };
+  return of("from_reference") == deviation["hausdorff_pct_diagonal"] && of("from_mesh") != of("from_reference");
 }
 
 std::string distance_text(const Json& report, const std::string& name) {

@@ -1,20 +1,26 @@
 // What the view can be coloured by: values of faces, and the colours that they have.
 
 const words = {
-  deviation: 'Deviation', edge_ratio: 'Edge ratio', min_angle_deg: 'Smallest angle', scaled_jacobian: 'Scaled Jacobian',
+  deviation: 'Deviation', edge_ratio: 'Edge ratio', min_angle_deg: 'Smallest angle', max_angle_deg: 'Largest angle',
+  scaled_jacobian: 'Scaled Jacobian',
   min_dihedral_deg: 'Least dihedral angle', max_dihedral_deg: 'Largest dihedral angle',
 };
 const largeIsBad = new Set(['edge_ratio', 'max_dihedral_deg']);
 const noStep = 65535, noSet = 65535;
 
-export function title(measure, unit) {
-  const degrees = measure.measure.endsWith('_deg') ? ', degrees' : '';
-  const length = measure.measure === 'deviation' ? `, ${unit}` : '';
-  return `${words[measure.measure] || measure.measure}${degrees}${length}`;
+const isAngle = (measure) => measure.endsWith('_deg');
+
+// "Smallest angle 12.3°"
+export const named = (measure, value, unit = '') =>
+  `${words[measure] || measure} ${value}${isAngle(measure) ? '°' : measure === 'deviation' ? ` ${unit}` : ''}`;
+
+export function longTitle({ measure, of }, unit) {
+  const rest = isAngle(measure) ? ', degrees' : measure === 'deviation' ? `, ${unit}` : measure === 'edge_ratio' ? ` of ${of}` : '';
+  return `${words[measure] || measure}${rest}`;
 }
 
-export const longTitle = (measure, unit) =>
-  title(measure, unit) + (measure.measure === 'edge_ratio' ? ` of ${measure.of}` : '');
+// What counts of an element that the measure varies on.
+export const heading = (m, unit) => longTitle(m, unit) + (m.measure === 'deviation' ? ', mean of each triangle' : '');
 
 export function colourTable(text) {
   const bytes = atob(text), table = new Uint8Array(4 * 256);
@@ -67,7 +73,7 @@ export function colourings(view, data, unit) {
     });
     const ofReference = once(() => (isDeviation && data['reference.deviation'] ? values(data['reference.deviation'], m) : null));
     return {
-      name: m.name, title: longTitle(m, unit), low: m.low, high: m.high,
+      name: m.name, measure: m.measure, title: longTitle(m, unit), low: m.low, high: m.high,
       table: isDeviation ? diverging : largeIsBad.has(m.measure) ? sequential : reversed(sequential),
       ofFaces, ofTetrahedra, ofReference,
     };

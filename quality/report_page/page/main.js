@@ -1,12 +1,13 @@
 // The report's page: what its text says is there without this; this adds the view, the histograms and their links.
 import { arrays, frame, json } from './data.js';
-import { colourings } from './colours.js';
+import { colourings, named } from './colours.js';
 import { drawHistograms } from './plots.js';
 import { Panel } from './panel.js';
 import { View } from './view.js';
 
 const get = (id) => document.getElementById(id);
 const count = (n) => n.toLocaleString('en');
+const areShown = (n) => `${count(n)} ${n === 1 ? 'is' : 'are'} shown`;
 const number = (x) => (x === null || Number.isNaN(x) ? 'none' : String(+x.toPrecision(4)));
 
 function dropDeadLinks() {
@@ -71,7 +72,7 @@ class Page {
       const behind = this.data[`${measure.name}.behind`];
       shown = this.view.chooseTriangles((i) => inBar(behind[i]));
     }
-    this.panel.tell(`${words}; ${count(shown)} are shown.`);
+    this.panel.tell(`${words}; ${areShown(shown)}.`);
   }
 
   showWorst(index) {
@@ -80,9 +81,21 @@ class Page {
     for (const row of document.querySelectorAll('tr[data-worst]')) row.classList.toggle('chosen', +row.dataset.worst === index);
     this.view.chooseElement(worst.corners);
     const figures = ['scaled_jacobian', 'min_angle_deg', 'min_dihedral_deg', 'max_dihedral_deg', 'max_angle_deg', 'edge_ratio']
-      .filter((key) => key in element).map((key) => `${key.replace(/_deg$/, '').replaceAll('_', ' ')} ${number(element[key])}`);
-    this.panel.tell(`Element ${element.element}: ${figures.join(', ')}; ${element.cause}.`);
+      .filter((key) => key in element).map((key) => named(key, number(element[key])));
+    this.panel.tell(`Element ${element.element}: ${figures.join('; ')}; ${element.cause}.`);
     get('canvas').dataset.element = element.element;
+  }
+
+  // In the colours of the one that the point is of: the other's may say nothing of it.
+  showFarthest(isOfReference, place) {
+    this.clearBars();
+    this.panel.colourBy('triangles.deviation');
+    if (this.view.reference) this.panel.showPart(isOfReference ? 'both' : 'result');
+    this.view.showPlace(place);
+    const [own, other] = ['mesh', 'reference'].map((name, i) => (this.report.compared ? ['second mesh', 'first mesh'][i] : name));
+    this.panel.tell(isOfReference
+      ? `The point of the ${other} that is farthest from the ${own}: (${place.map(number).join(', ')}), left; to the right what the ${own} has there.`
+      : `The point of the ${own} that is farthest from the ${other}: (${place.map(number).join(', ')}).`);
   }
 
   showSet(name) {
@@ -91,7 +104,7 @@ class Page {
     const shown = madeUp
       ? this.view.chooseTriangles((i) => this.data['result.made_up'][i] === madeUp)
       : this.view.chooseTriangles((i) => set[i] === index);
-    this.panel.tell(`Set ${name}: ${count(shown)} triangles are shown.`);
+    this.panel.tell(`Set ${name}, triangles: ${areShown(shown)}.`);
   }
 
   bindButtons() {
@@ -101,6 +114,7 @@ class Page {
       const { show, at } = button.dataset;
       if (show === 'worst') this.showWorst(+at);
       if (show === 'set') this.showSet(at);
+      if (show.startsWith('farthest')) this.showFarthest(show === 'farthest-of-reference', JSON.parse(at));
       if (show === 'place') {
         this.view.showPlace(JSON.parse(at));
         this.panel.tell(`The place (${JSON.parse(at).map(number).join(', ')}).`);
@@ -126,8 +140,8 @@ class Page {
     const element = tetrahedron !== undefined ? tetrahedron : this.data['result.element'][triangle];
     const figures = this.colourings
       .filter((c) => !c.names)
-      .map((c) => [c.title, tetrahedron === undefined ? c.ofFaces()[triangle] : c.ofTetrahedra() && c.ofTetrahedra()[tetrahedron]])
-      .filter(([, value]) => typeof value === 'number').map(([title, value]) => `${title} ${number(value)}`);
+      .map((c) => [c.measure, tetrahedron === undefined ? c.ofFaces()[triangle] : c.ofTetrahedra() && c.ofTetrahedra()[tetrahedron]])
+      .filter(([, value]) => typeof value === 'number').map(([measure, value]) => named(measure, number(value), this.unit));
     const set = tetrahedron === undefined && this.description.sets[this.data['result.set'][triangle]];
     this.panel.tell(`Element ${this.numberOf(element)}: ${figures.join('; ')}${set ? `; in ${set.name}` : ''}.`);
   }

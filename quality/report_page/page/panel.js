@@ -35,16 +35,20 @@ export class Panel {
     for (const id of ['scale-low', 'scale-high', 'scale-reset']) get(id).disabled = Boolean(names);
     get('scale-low').value = names ? '' : +low.toPrecision(6);
     get('scale-high').value = names ? '' : +high.toPrecision(6);
+    for (const id of ['scale-low', 'scale-high']) get(id).setCustomValidity('');
+    get('scale-wrong').textContent = '';
     this.view.colour(this.colouring, low, high);
     this.legend(low, high);
   }
 
+  // What is no scale is said beside the boxes, and the one that is shown stays.
   rescale() {
-    const low = +get('scale-low').value, high = +get('scale-high').value;
-    if (!Number.isFinite(low) || !Number.isFinite(high) || !(low < high)) {
-      this.tell('The scale needs a lower end below its upper end.');
-      return;
-    }
+    const boxes = ['scale-low', 'scale-high'].map(get), [low, high] = boxes.map((b) => b.valueAsNumber);
+    const wrong = Number.isNaN(low) || Number.isNaN(high) ? 'Both ends are numbers.'
+      : low < high ? '' : 'The first is below the second.';
+    for (const b of boxes) b.setCustomValidity(wrong);
+    get('scale-wrong').textContent = wrong && `${wrong} The scale is still ${this.view.range.map((x) => +x.toPrecision(4)).join(' to ')}.`;
+    if (wrong) return;
     this.view.scale(low, high);
     this.legend(low, high);
   }
@@ -68,6 +72,10 @@ export class Panel {
       blend.disabled = part !== 'blend';
       for (const id of ['tag-left', 'tag-right']) get(id).hidden = part !== 'both';
       this.view.show(part, +blend.value / 100);
+    };
+    this.showPart = (part) => {
+      for (const r of radios) r.checked = r.value === part;
+      update();
     };
     radios.forEach((r) => r.addEventListener('change', update));
     blend.addEventListener('input', update);

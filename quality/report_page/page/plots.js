@@ -2,7 +2,7 @@
 import { select } from 'd3-selection';
 import { scaleLinear, scaleLog } from 'd3-scale';
 import { axisBottom, axisLeft } from 'd3-axis';
-import { longTitle } from './colours.js';
+import { heading, longTitle } from './colours.js';
 
 const width = 320, height = 150, left = 38, right = 6, top = 6, bottom = 22;
 
@@ -12,8 +12,10 @@ const short = (x) => (x !== 0 && (Math.abs(x) < 1e-3 || Math.abs(x) >= 1e5) ? x.
 function words(measure, bar, unit) {
   const size = (measure.high - measure.low) / measure.bars;
   const number = (x) => +x.toPrecision(4);
-  const from = measure.low + bar * size;
-  return `${longTitle(measure, unit)}: ${number(from)} to ${number(from + size)}, ${measure.counts[bar]} ${measure.of}`;
+  const from = measure.low + bar * size, to = number(from + size);
+  const range = bar === 0 ? `up to ${to}` : bar === measure.bars - 1 ? `${number(from)} or more` : `${number(from)} to ${to}`;
+  const of = measure.counts[bar] === 1 ? { triangles: 'triangle', tetrahedra: 'tetrahedron' }[measure.of] : measure.of;
+  return `${longTitle(measure, unit)}: ${range}, ${measure.counts[bar]} ${of}`;
 }
 
 // `pick(measure, bar)`; bar is null where none is chosen any more. Returns what takes the choice away.
@@ -21,7 +23,7 @@ export function drawHistograms(box, measures, unit, pick) {
   const clear = () => select(box).selectAll('.bar').classed('chosen', false).attr('aria-pressed', 'false');
   for (const measure of measures) {
     const figure = select(box).append('div').attr('class', 'histogram');
-    figure.append('h4').text(longTitle(measure, unit));
+    figure.append('h4').text(heading(measure, unit));
     const svg = figure.append('svg').attr('viewBox', `0 0 ${width} ${height}`).attr('role', 'group')
       .attr('aria-label', `Histogram of ${longTitle(measure, unit)}`).attr('data-measure', measure.name);
     const x = scaleLinear().domain([measure.low, measure.high]).range([left, width - right]);
@@ -86,10 +88,11 @@ export function drawLegend(box, colouring, low, high, css) {
   }
   const wide = Math.max(300, Math.min(640, box.clientWidth || 640)), end = Math.round(0.66 * wide), svg = select(box).append('svg').attr('viewBox', `0 0 ${wide} 36`).attr('preserveAspectRatio', 'xMinYMid meet')
     .attr('role', 'img').attr('aria-label', `${colouring.title}, from ${low} to ${high}`);
+  const side = 26;  // half of the widest number below an end
   const ramp = svg.append('defs').append('linearGradient').attr('id', 'ramp');
   for (let i = 0; i <= 32; ++i) ramp.append('stop').attr('offset', i / 32).attr('stop-color', css(Math.round((255 * i) / 32)));
-  svg.append('rect').attr('x', 10).attr('y', 2).attr('width', end - 10).attr('height', 12).attr('fill', 'url(#ramp)');
-  const x = scaleLinear().domain([low, high]).range([10, end]);
+  svg.append('rect').attr('x', side).attr('y', 2).attr('width', end - side).attr('height', 12).attr('fill', 'url(#ramp)');
+  const x = scaleLinear().domain([low, high]).range([side, end]);
   svg.append('g').attr('class', 'axis').attr('transform', 'translate(0,14)').call(axisBottom(x).ticks(wide / 90).tickFormat(short).tickSizeOuter(0));
-  svg.append('text').attr('x', end + 14).attr('y', 13).attr('font-size', 12).text(colouring.title);
+  svg.append('text').attr('x', end + 14).attr('y', 12).attr('font-size', 12).text(colouring.title);
 }
