@@ -1,6 +1,9 @@
 #include "quality/report_page/html.hpp"
 #include "quality/report_page/page_sections.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace scan2fea {
 namespace {
 
@@ -10,7 +13,9 @@ std::string difference(const Json& first, const Json& second) {
   if (!first.is_number() || !second.is_number()) return first == second ? "same" : "differs";
   if (first.is_number_integer() && second.is_number_integer())
     return number(Json(second.get<std::int64_t>() - first.get<std::int64_t>()));
-  return number(Json(second.get<double>() - first.get<double>()), 3);
+  const double a = first.get<double>(), b = second.get<double>();
+  constexpr double rounding = 1e-9;
+  return std::abs(b - a) <= rounding * std::max(std::abs(a), std::abs(b)) ? "0" : number(Json(b - a), 3);
 }
 
 // The file that both are measured from, too; empty where there is none.
@@ -39,9 +44,14 @@ std::string comparison_section(const Json& report) {
       return "<data value=\"" + escaped(value->dump()) + "\">" +
              (unit == "%" ? percent(*value, 5) : with_unit(*value, number(*value, 5))) + "</data>";
     };
-    table.row({escaped(label), cell(a), cell(b),
-               a != nullptr && b != nullptr ? with_unit(*a, difference(*a, *b)) : std::string()},
-              "data-figure=\"" + std::string(figure) + "\"");
+    const auto difference_with_unit = [&](const Json& of_first, const Json& of_second) {
+      if (unit == "%" && of_first.is_number() && of_second.is_number())
+        return percent(Json(of_second.get<double>() - of_first.get<double>()));
+      return with_unit(of_first, difference(of_first, of_second));
+    };
+    table.row(
+        {escaped(label), cell(a), cell(b), a != nullptr && b != nullptr ? difference_with_unit(*a, *b) : std::string()},
+        "data-figure=\"" + std::string(figure) + "\"");
   };
   row("Triangles of the surface", "surface.faces");
   row("Nodes", "volume_mesh.nodes");

@@ -77,7 +77,7 @@ std::string stills(const ReportPageInput& input) {
     text += "<figure><img alt=\"" + html::escaped(picture.title) +
             "\" width=\"640\" height=\"480\" src=\"data:image/png;base64," + base64(picture.png) + "\"><figcaption>" +
             html::escaped(picture.title) + "</figcaption></figure>\n";
-  return text.empty() ? text : text + legend_text(pictured_measure(input.histograms), input.report);
+  return text.empty() ? text : legend_text(pictured_measure(input.histograms), input.report) + text;
 }
 
 }  // namespace

@@ -71,9 +71,10 @@ std::string distance_fact(const Json& report) {
   }
   const Json& at = report["deviation"]["farthest_point"];
   const bool is_on_reference = farthest_is_on_reference(report);
-  const std::string first = report.contains("compared") ? "first mesh" : "reference";
+  const bool is_of_two = report.contains("compared");
+  const std::string own = is_of_two ? "second mesh" : "mesh", first = is_of_two ? "first mesh" : "reference";
   return fact("Farthest from the " + first, "at least " + distance_text(report, "deviation.hausdorff_pct_diagonal"),
-              "a point of the " + (is_on_reference ? first : "mesh") + ", at " + place(at) + " " +
+              "a point of the " + (is_on_reference ? first : own) + ", at " + place(at) + " " +
                   show_button(is_on_reference ? "farthest-of-reference" : "farthest-of-mesh", "Show", at.dump()) +
                   "<br>RMS " + distance_text(report, "deviation.rms_pct_diagonal") + "<br>volume " +
                   percent_figure(report, "deviation.volume_difference_pct") + ", area " +
