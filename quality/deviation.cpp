@@ -1,7 +1,6 @@
 #include "quality/deviation.hpp"
 
 #include "preproc/mesh/error.hpp"
-#include "preproc/mesh/six_node_triangle.hpp"
 #include "preproc/mesh/splitmix64.hpp"
 #include "quality/curved_surface.hpp"
 #include "quality/triangle_tree.hpp"
@@ -57,20 +56,6 @@ struct Surface {
 
   double area() const { return area_up_to.back(); }
 
-  // Of a triangle the middles of its edges and its own; those of edges are nodes where it is curved.
-  std::size_t middles() const { return pieces != nullptr ? pieces->curved.size() : 4 * mesh.triangles.size(); }
-  Vec3 middle(std::size_t i) const {
-    constexpr double third = 1.0 / 3;
-    if (pieces != nullptr) {
-      SixNodeTriangle nodes;
-      for (std::size_t k = 0; k < 6; ++k) nodes[k] = pieces->nodes[pieces->curved[i].nodes[k]];
-      return point_on(nodes, {third, third, third});
-    }
-    const Triangle& t = mesh.triangles[tree.leaf_order()[i / 4]];
-    const auto corner = [&](std::size_t k) { return mesh.vertices[t[k % 3]]; };
-    return i % 4 == 3 ? Vec3(third * (corner(0) + corner(1) + corner(2))) : Vec3(0.5 * (corner(i) + corner(i + 1)));
-  }
-
   // A random point of the i-th of n parts of equal area.
   Vec3 sample(std::size_t i, std::size_t n, const IndexedRandom& random) const {
     const double position = (static_cast<double>(i) + random(3 * i)) / static_cast<double>(n) * area();
@@ -114,27 +99,25 @@ struct Distances {
   }
 };
 
-// From the vertices and samples of one surface to the other, and from so many of its middles, which are not in the sum.
-// Samples follow the leaves, so each is near the last one, whose nearest triangle is a good first guess.
-Distances measure_side(const Surface& from, const Surface& to, std::size_t samples, const IndexedRandom& random,
-                       std::size_t middles) {
-  const std::size_t vertices = from.vertices.size(), in_sum = vertices + samples, count = in_sum + middles;
+// From the vertices and samples of one surface to the other. Samples follow the leaves, so each is near the last one,
+// whose nearest triangle is a good first guess.
+Distances measure_side(const Surface& from, const Surface& to, std::size_t samples, const IndexedRandom& random) {
+  const std::size_t count = from.vertices.size() + samples;
   std::vector<Distances> blocks((count + block_size - 1) / block_size);
   tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t block) {
     const std::size_t begin = block * block_size, end = std::min(count, begin + block_size);
     std::uint32_t hint = to.tree.leaf_order()[0];
     for (std::size_t i = begin; i < end; ++i) {
-      const Vec3 p = i < vertices ? from.vertices[i]
-                     : i < in_sum ? from.sample(i - vertices, samples, random)
-                                  : from.middle(i - in_sum);
+      const Vec3 p =
+          i < from.vertices.size() ? from.vertices[i] : from.sample(i - from.vertices.size(), samples, random);
       const ClosestPoint nearest = to.tree.closest(p, hint);
       hint = nearest.triangle;
-      blocks[block].add({i < in_sum ? nearest.squared_distance : 0, nearest.squared_distance, p, nearest.point});
+      blocks[block].add({nearest.squared_distance, nearest.squared_distance, p, nearest.point});
     }
   });
   Distances all;
   for (const Distances& block : blocks) all.add(block);
-  all.sum_squared /= static_cast<double>(in_sum);
+  all.sum_squared /= static_cast<double>(count);
   return all;
 }
 
@@ -168,8 +151,8 @@ Deviation between(const Surface& own, const Surface& other, const DeviationOptio
   deviation.area_difference_pct = 100 * (own.area() - other.area()) / other.area();
 
   const IndexedRandom random(options.seed);
-  const Distances to_reference = measure_side(own, other, options.samples, random, own.middles());
-  const Distances to_mesh = measure_side(other, own, options.samples, IndexedRandom(options.seed + 1), 0);
+  const Distances to_reference = measure_side(own, other, options.samples, random);
+  const Distances to_mesh = measure_side(other, own, options.samples, IndexedRandom(options.seed + 1));
   deviation.farthest_is_on_reference = to_mesh.largest_squared > to_reference.largest_squared;
   const Distances& worse = deviation.farthest_is_on_reference ? to_mesh : to_reference;
   const double diagonal = bounding_box(other.mesh.vertices).diagonal();

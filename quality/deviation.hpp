@@ -2,10 +2,8 @@
 //
 // Distances are sampled from both sides, as Metro does (Cignoni, Rocchini, Scopigno, 1998): from all vertices of each
 // surface, and from random points of it, to the nearest point of the other. The points are stratified by area, one in
-// each of N equal parts, which has less variance than independent ones. From the mesh, the middles of its triangles and
-// of their edges are measured, too, so that nothing that signed_deviations says of a triangle is farther than the
-// largest distance here. The sampled Hausdorff distance is a lower bound of the true one; distances to the other
-// surface ignore its orientation and topology.
+// each of N equal parts, which has less variance than independent ones. The sampled Hausdorff distance is a lower bound
+// of the true one; distances to the other surface ignore its orientation and topology.
 #pragma once
 
 #include "preproc/mesh/surface_mesh.hpp"

@@ -22,12 +22,13 @@ std::vector<double> signed_deviations(const SurfaceMesh& mesh, const TriangleTre
 std::vector<double> signed_deviations(const TetMesh& mesh, const TriangleTree& reference);
 
 // Per node of the mesh its own distance, by the normals of the whole faces around it, since a curved face's at a single
-// node may be anything; NaN for nodes that are not on the outer boundary. Beside sharp edges, where the nearest point of
-// the reference lies sideways, the sign may be the other one.
+// node may be anything; NaN for nodes that are not on the outer boundary. Beside sharp edges, where the nearest point
+// of the reference lies sideways, the sign may be the other one.
 std::vector<double> signed_deviations_of_nodes(const SurfaceMesh& mesh, const TriangleTree& reference);
 std::vector<double> signed_deviations_of_nodes(const TetMesh& mesh, const TriangleTree& reference);
 
-// Per triangle of the reference the mean of its corners' distances to the mesh, with the same meaning of the sign. `tree` is the mesh's.
+// Per triangle of the reference the mean of its corners' distances to the mesh, with the same meaning of the sign.
+// `tree` is the mesh's.
 std::vector<double> signed_deviations_of_reference(const SurfaceMesh& reference, const SurfaceMesh& mesh,
                                                    const TriangleTree& tree);
 
