@@ -70,8 +70,7 @@ int check(CheckFlags flags) {
   if (!unit.empty()) flags.common.unit = unit;
   const std::vector<Gate> gates = gates_for(asked, mesh.volume_mesh.has_value());
   display.line(describe_input(mesh.surface, flags.common));
-  const LoadedReference reference =
-      flags.references.empty() ? LoadedReference() : load_references(flags.references, unit);
+  const LoadedReference reference = load_references(flags.references, unit);
   Subject subject = subject_of(mesh);
   compare_with(reference, subject);
   subject.inputs = read_files(flags);

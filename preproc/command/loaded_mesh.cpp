@@ -20,6 +20,22 @@ double volume_of_bodies(const std::vector<Body>& bodies) {
   return sum;
 }
 
+LoadedReference load_reference(const std::filesystem::path& file) {
+  if (find_format(file) != nullptr && find_format(file)->volume) return reference_of(load_mesh(file));
+  NamedScan scan = read_named_scan(file);
+  LoadedReference reference;
+  if (auto* points = std::get_if<PointCloud>(&scan)) {
+    reference.cloud = std::move(*points);
+    return reference;
+  }
+  auto& surface = std::get<NamedSurface>(scan);
+  return reference_of({.surface = std::move(surface.mesh),
+                       .volume_mesh = {},
+                       .face_sets = std::move(surface.face_sets),
+                       .element_numbers = {},
+                       .unit = std::move(surface.unit)});
+}
+
 }  // namespace
 
 LoadedMesh load_mesh(const std::filesystem::path& file) {
@@ -56,23 +72,8 @@ void compare_with(const LoadedReference& reference, Subject& subject) {
   subject.reference_is_of_bodies = reference.is_of_bodies;
 }
 
-LoadedReference load_reference(const std::filesystem::path& file) {
-  if (find_format(file) != nullptr && find_format(file)->volume) return reference_of(load_mesh(file));
-  NamedScan scan = read_named_scan(file);
-  LoadedReference reference;
-  if (auto* points = std::get_if<PointCloud>(&scan)) {
-    reference.cloud = std::move(*points);
-    return reference;
-  }
-  auto& surface = std::get<NamedSurface>(scan);
-  return reference_of({.surface = std::move(surface.mesh),
-                       .volume_mesh = {},
-                       .face_sets = std::move(surface.face_sets),
-                       .element_numbers = {},
-                       .unit = std::move(surface.unit)});
-}
-
 LoadedReference load_references(const std::vector<std::filesystem::path>& files, const std::string& unit) {
+  if (files.empty()) return {};
   if (files.size() == 1) {
     LoadedReference reference = load_reference(files.front());
     require_same_unit(unit, reference.unit, files.front().string());

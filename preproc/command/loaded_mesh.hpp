@@ -39,8 +39,7 @@ struct LoadedReference {
 // The reference must outlive the subject.
 void compare_with(const LoadedReference& reference, Subject& subject);
 
-LoadedReference load_reference(const std::filesystem::path& file);
-// One of them, or the surfaces of several bodies. Throws WrongUsage for a cloud among several, and where a file says
+// Nothing of no file; one of them, or the surfaces of several bodies. Throws WrongUsage for a cloud among several, and where a file says
 // another unit than `unit`, that of the mesh.
 LoadedReference load_references(const std::vector<std::filesystem::path>& files, const std::string& unit);
 // Of a mesh of second order the surface is curved, in flat pieces; of one of several bodies it is all of their

@@ -170,8 +170,7 @@ int picture(const PictureFlags& flags) {
   display.begin("read");
   const LoadedMesh mesh = load_mesh(file_to_read(flags.input, flags.from));
   const std::string unit = settled_unit(mesh.unit, flags.unit, flags.input.string());
-  const LoadedReference reference =
-      flags.references.empty() ? LoadedReference() : load_references(flags.references, unit);
+  const LoadedReference reference = load_references(flags.references, unit);
   if (!flags.references.empty() && !reference.surface)
     throw WrongUsage({.what = "the reference is a point cloud, which has no sides",
                       .where = flags.references.front().string(),

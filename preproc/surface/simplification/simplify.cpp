@@ -1,7 +1,6 @@
 #include "preproc/surface/simplification/simplify.hpp"
 
 #include "preproc/mesh/error.hpp"
-#include "preproc/mesh/require_memory.hpp"
 #include "preproc/surface/curved/fit_curves.hpp"
 #include "preproc/surface/features/feature_selection.hpp"
 #include "preproc/surface/features/match_features.hpp"
@@ -11,6 +10,7 @@
 #include "preproc/surface/simplification/surface_on_scan.hpp"
 #include "preproc/surface/simplification/surface_search.hpp"
 #include "preproc/surface/sizing/split_long_edges.hpp"
+#include "preproc/surface/sizing/triangle_memory.hpp"
 #include "quality/triangle_measures.hpp"
 
 #include <algorithm>
@@ -77,9 +77,6 @@ double typical_edge(const TargetSize& size, const SurfaceMesh& scan, double area
   }
   return equilateral_edge(area, wanted_faces(size, scan, area));
 }
-
-// Measured on scans of millions of triangles.
-constexpr double bytes_a_triangle = 200;
 
 // Those of the scan that were found or given.
 Features features_of(const SurfaceMesh& mesh, const SimplifyOptions& options) {
@@ -189,8 +186,8 @@ Simplification::Simplification(const SurfaceMesh& scan, const SimplifyOptions& o
   const TargetSize size = in_model_units(options.size, bounding_box(scan.vertices));
   const double area = surface_area(scan);
   const double edge = typical_edge(size, scan, area);
-  require_memory(area / (equilateral_area * edge * edge), bytes_a_triangle, "triangles",
-                 "a larger --edge-length or --deviation, or fewer --faces");
+  require_memory_of_triangles(area / (equilateral_area * edge * edge),
+                              "a larger --edge-length or --deviation, or fewer --faces");
   Features features = features_of(scan, options);
   state.of_scan.faces_before = scan.triangles.size();
   state.of_scan.feature_edges = features.edges.size();

@@ -3,11 +3,11 @@
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/error_text.hpp"
 #include "preproc/mesh/numbers.hpp"
-#include "preproc/mesh/require_memory.hpp"
 #include "preproc/surface/kernel/adjacency.hpp"
 #include "preproc/surface/kernel/parallel_blocks.hpp"
 #include "preproc/surface/sizing/sizing_field.hpp"
 #include "preproc/surface/sizing/split_long_edges.hpp"
+#include "preproc/surface/sizing/triangle_memory.hpp"
 #include "quality/face_blocks.hpp"
 #include "quality/triangle_measures.hpp"
 #include "quality/triangle_tree.hpp"
@@ -24,8 +24,6 @@ namespace {
 constexpr double margin = 0.85;
 // Of the other edges, so that the count is kept.
 constexpr double most_growth = 1.5;
-// Of the refined scan and what is made of it.
-constexpr double bytes_a_triangle = 200;
 
 void require(bool good, const char* flag, const char* what, double value, const char* limit) {
   if (!good) throw WrongUsage({.what = what, .where = flag, .value = error_text(value), .limit = limit, .advice = {}});
@@ -125,8 +123,8 @@ void refine_within_limits(SurfaceMesh& scan, std::vector<FeatureEdge>& features,
   for (const auto& [box, length] : limits.boxes) require_surface_in(scan, box, "box", (box.low + box.high) / 2);
   for (const auto& [ball, length] : limits.balls) require_surface_in(scan, ball, "ball", ball.centre);
   for (int pass = 0; pass < most_passes; ++pass) {
-    require_memory(least_triangles(scan, limits), bytes_a_triangle, "triangles",
-                   "longer edges in --size-box or --size-ball, or a smaller box or ball");
+    require_memory_of_triangles(least_triangles(scan, limits),
+                                "longer edges in --size-box or --size-ball, or a smaller box or ball");
     std::vector<double> length(scan.vertices.size(), infinity);
     for (const Triangle& t : scan.triangles) {
       const double limit = limit_of(scan, t, limits);
