@@ -59,22 +59,26 @@ int check(CheckFlags flags) {
   std::vector<OutputPath> files = report_outputs(flags.common);
   if (flags.leaks) files.push_back({*flags.leaks});
   require_writable(files, inputs, flags.common.force);
-  ProgressDisplay display(flags.common);
+  std::optional<ProgressDisplay> own;
+  ProgressDisplay& display = display_of(flags.common, own);
   std::vector<std::filesystem::path> read{flags.common.input};
   read.insert(read.end(), flags.references.begin(), flags.references.end());
   display.expect(expected_measuring(read, flags.common));
   display.begin("read");
-  const std::filesystem::path file = file_to_read(flags.common.input, flags.common.formats.from);
-  const LoadedMesh mesh = load_mesh(file);
+  const MemoryMesh* given = flags.common.caller != nullptr ? flags.common.caller->input(0) : nullptr;
+  const std::filesystem::path file =
+      given != nullptr ? given->name : file_to_read(flags.common.input, flags.common.formats.from);
+  const std::uint64_t first_element = given != nullptr ? given->first_element : first_element_of(file);
+  const LoadedMesh mesh = loaded(given != nullptr ? mesh_in(*given) : read_mesh(file), first_element);
   const std::string unit = settled_unit(mesh.unit, flags.common.unit, flags.common.input.string());
   if (!unit.empty()) flags.common.unit = unit;
   const std::vector<Gate> gates = gates_for(asked, mesh.volume_mesh.has_value());
   display.line(describe_input(mesh.surface, flags.common));
-  const LoadedReference reference = load_references(flags.references, unit);
+  const LoadedReference reference = load_references(flags.references, unit, flags.common.caller);
   Subject subject = subject_of(mesh);
   compare_with(reference, subject);
   subject.inputs = read_files(flags);
-  subject.first_element = first_element_of(file);
+  subject.first_element = first_element;
   StagedOutputs outputs;
   if (flags.leaks) {
     const std::vector<Opening> openings = find_openings(mesh.surface);
@@ -107,7 +111,7 @@ SubCommand add_check(CLI::App& root) {
   app->add_option("--leaks", flags->leaks,
                   "Write the borders of the openings that the surface leaks through: OBJ lines")
       ->type_name("FILE");
-  return {app, [flags] { return check(*flags); }};
+  return {app, [flags] { return check(*flags); }, &flags->common};
 }
 
 }  // namespace scan2fea::command

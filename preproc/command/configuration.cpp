@@ -6,6 +6,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -41,6 +42,17 @@ std::string as_flag_value(const toml::node& node, const std::string& where, cons
                     .advice = "text, a number, true or false, or an array of these"});
 }
 
+void require_length_of_list(std::size_t values, const CLI::Option& option, const std::string& where,
+                            const std::string& key) {
+  const auto wanted = static_cast<std::size_t>(std::max(1, option.get_type_size_max()));
+  if (values == wanted) return;
+  throw WrongUsage({.what = "list of another length than the option takes",
+                    .where = where,
+                    .value = key + ", " + std::to_string(values) + " values",
+                    .limit = std::to_string(wanted),
+                    .advice = key + " = [[" + option.get_type_name() + "], ...]"});
+}
+
 // A list may be one of lists: each is then what the option takes at a time, as a box.
 std::vector<std::string> values_of(const toml::node& node, const CLI::Option& option, const std::string& where,
                                    const std::string& key) {
@@ -53,13 +65,7 @@ std::vector<std::string> values_of(const toml::node& node, const CLI::Option& op
       values.push_back(as_flag_value(element, where, key));
       continue;
     }
-    const auto wanted = static_cast<std::size_t>(std::max(1, option.get_type_size_max()));
-    if (at_a_time->size() != wanted)
-      throw WrongUsage({.what = "list of another length than the option takes",
-                        .where = where,
-                        .value = key + ", " + std::to_string(at_a_time->size()) + " values",
-                        .limit = std::to_string(wanted),
-                        .advice = key + " = [[" + option.get_type_name() + "], ...]"});
+    require_length_of_list(at_a_time->size(), option, where, key);
     for (const toml::node& value : *at_a_time) values.push_back(as_flag_value(value, where, key));
   }
   return values;
@@ -76,6 +82,12 @@ struct Setting {
   std::vector<std::string> values;
   std::string where;
 };
+
+Setting setting_of(CLI::Option* option, std::vector<std::string> values, std::string where, const std::string& key) {
+  if (option->get_expected_max() == 0)  // of --no-primitives true is false
+    for (std::string& value : values) value = option->get_flag_value(key, value);
+  return {option, std::move(values), std::move(where)};
+}
 
 bool is_sub_command(const CLI::App& root, std::string_view name) {
   const auto commands = root.get_subcommands([name](const CLI::App* c) { return c->get_name() == name; });
@@ -114,9 +126,7 @@ std::vector<Setting> settings_in(const toml::table& table, const CLI::App& root,
     CLI::Option* option = find_option(command, key);
     if (option != nullptr && option->get_configurable() && key != "config") {
       std::vector<std::string> values = values_of(node, *option, place(file, node), key);
-      if (option->get_expected_max() == 0)  // of --no-primitives true is false
-        for (std::string& value : values) value = option->get_flag_value(key, value);
-      settings.push_back({option, std::move(values), place(file, node)});
+      settings.push_back(setting_of(option, std::move(values), place(file, node), key));
     } else if (option != nullptr || !known_to_any(root, key)) {
       throw WrongUsage({.what = "unknown option",
                         .where = place(file, node),
@@ -136,7 +146,7 @@ void apply(const std::vector<Setting>& settings) {
     if (!given_or_excluded(*s.option)) chosen.push_back(&s);
   for (const Setting* s : chosen) {
     if (given_or_excluded(*s->option))
-      throw WrongUsage({.what = "excludes another option of the same file",
+      throw WrongUsage({.what = "excludes another option that is given, too",
                         .where = s->where,
                         .value = s->option->get_name(),
                         .limit = {},
@@ -151,6 +161,34 @@ void apply(const std::vector<Setting>& settings) {
 }
 
 }  // namespace
+
+bool is_keyword(const CLI::Option& option) {
+  static constexpr std::array of_terminals{"from", "to", "config", "quiet", "verbose", "progress"};
+  const auto is_of_terminal = [](const std::string& name) { return std::ranges::count(of_terminals, name) > 0; };
+  return option.get_configurable() && std::ranges::none_of(option.get_lnames(), is_of_terminal);
+}
+
+void apply_keywords(CLI::App& command, const std::vector<Keyword>& keywords) {
+  std::vector<Setting> settings;
+  for (const Keyword& keyword : keywords) {
+    std::string key = keyword.name;
+    std::ranges::replace(key, '_', '-');
+    CLI::Option* option = find_option(command, key);
+    if (option == nullptr || !is_keyword(*option))
+      throw WrongUsage({.what = "unknown option",
+                        .where = command.get_name(),
+                        .value = keyword.name + did_you_mean(key, keys_of(command)),
+                        .limit = {},
+                        .advice = "the names of `scan2fea " + command.get_name() + " --help`, with _ for -"});
+    std::vector<std::string> values;
+    for (const std::vector<std::string>& at_a_time : keyword.values) {
+      require_length_of_list(at_a_time.size(), *option, command.get_name(), keyword.name);
+      values.insert(values.end(), at_a_time.begin(), at_a_time.end());
+    }
+    settings.push_back(setting_of(option, std::move(values), command.get_name(), key));
+  }
+  apply(settings);
+}
 
 void apply_configuration(CLI::App& root, CLI::App& command, const std::filesystem::path& file) {
   std::ifstream in(file);

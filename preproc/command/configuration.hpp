@@ -4,6 +4,8 @@
 #include <CLI/App.hpp>
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 namespace scan2fea::command {
 
@@ -13,5 +15,13 @@ namespace scan2fea::command {
 // Throws InvalidInput for a file that cannot be read or parsed (with its line), WrongUsage for a key or value that no
 // sub-command knows.
 void apply_configuration(CLI::App& root, CLI::App& command, const std::filesystem::path& file);
+
+// The same of a program: each value is a list of what the option takes at a time, true or false of a flag.
+struct Keyword {
+  std::string name;  // of the option, with _ for -
+  std::vector<std::vector<std::string>> values;
+};
+bool is_keyword(const CLI::Option& option);  // not of a terminal, which a program has none of
+void apply_keywords(CLI::App& command, const std::vector<Keyword>& keywords);
 
 }  // namespace scan2fea::command

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <sys/ioctl.h>
 #include <unistd.h>
+#include <utility>
 
 namespace scan2fea::command {
 namespace {
@@ -17,6 +18,8 @@ std::atomic<bool> in_json{false};
 std::atomic_flag writing;  // no mutex: a signal handler asks for it, too
 std::atomic<bool> bar_shown{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch lock-free atomics only");
+
+thread_local const LinesHeard::Hear* heard_by = nullptr;
 
 struct Writing {
   Writing() {
@@ -69,7 +72,16 @@ std::string console_line(LineKind kind, std::string_view text) {
   return line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";  // file names are any bytes
 }
 
+LinesHeard::LinesHeard(Hear hear) : hear_(std::move(hear)) {
+  heard_by = &hear_;
+}
+
+LinesHeard::~LinesHeard() {
+  heard_by = nullptr;
+}
+
 void say(LineKind kind, std::string_view text) {
+  if (heard_by != nullptr) return (*heard_by)(kind, text);
   say_raw(console_line(kind, text));
 }
 

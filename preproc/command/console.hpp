@@ -4,6 +4,7 @@
 // of the bar below it, the handler of an interrupt too. Safe to call from any thread.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -22,6 +23,19 @@ inline void warn(std::string_view text) {
   say(LineKind::warning, text);
 }
 std::string console_line(LineKind kind, std::string_view text);  // what `say` writes, with its end
+
+// While it lives, what its thread says goes there and not to stderr: several calls of a program may be on at once.
+class LinesHeard {
+ public:
+  using Hear = std::function<void(LineKind, std::string_view)>;
+  explicit LinesHeard(Hear hear);
+  ~LinesHeard();
+  LinesHeard(const LinesHeard&) = delete;
+  LinesHeard& operator=(const LinesHeard&) = delete;
+
+ private:
+  Hear hear_;
+};
 
 // One line of JSON of another type, as it is.
 void say_raw(std::string_view line);

@@ -1,5 +1,6 @@
 #include "export/formats.hpp"
 #include "export/units.hpp"
+#include "preproc/command/caller.hpp"
 #include "preproc/command/console.hpp"
 #include "preproc/command/deck_needs.hpp"
 #include "preproc/command/flags.hpp"
@@ -10,6 +11,7 @@
 #include "preproc/command/progress_display.hpp"
 #include "preproc/command/quality_fields.hpp"
 #include "preproc/command/sub_commands.hpp"
+#include "preproc/command/write_mesh.hpp"
 #include "preproc/command/written_file_flags.hpp"
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/error_text.hpp"
@@ -73,10 +75,6 @@ void require_deck(const TetMesh& mesh, const ConvertFlags& flags) {
   require_for_deck(*flags.deck, subject);
 }
 
-bool holds_fields(const std::optional<Holdings>& holds) {
-  return holds && holds->fields;
-}
-
 void require_usable(const ConvertFlags& flags) {
   if (!writes_volume(flags.output) && !writes_surface(flags.output))
     throw WrongUsage({.what = "unknown format of the output",
@@ -93,19 +91,23 @@ void require_usable(const ConvertFlags& flags) {
                       .advice = ".vtu, .vtp, or scan2fea check --reference"});
 }
 
+void scale(SurfaceMesh& surface, const ConvertFlags& flags) {
+  if (!flags.scale) return;
+  for (Vec3& p : surface.vertices) p *= parse_unit_scale(*flags.scale).factor();
+}
+
 // In the unit of what is written; nothing where none is given.
 std::optional<SurfaceMesh> read_reference(const MeshFile& read, const ConvertFlags& flags) {
   if (flags.references.empty()) return {};
   const std::string unit = std::visit([](const auto& mesh) { return mesh.unit; }, read.mesh);
-  LoadedReference reference = load_references(flags.references, unit);
+  LoadedReference reference = load_references(flags.references, unit, flags.display.caller);
   if (!reference.surface)
     throw WrongUsage({.what = "the reference is a point cloud, which has no sides",
                       .where = flags.references.front().string(),
                       .value = {},
                       .limit = {},
                       .advice = "a surface: scan2fea reconstruct"});
-  if (flags.scale)
-    for (Vec3& p : reference.surface->vertices) p *= parse_unit_scale(*flags.scale).factor();
+  scale(*reference.surface, flags);
   return std::move(reference.surface);
 }
 
@@ -119,11 +121,12 @@ void tell_other_arrays(const MeshFile& read, const ConvertFlags& flags) {
     tell({flags.input.string() + ": values of points and cells are not kept: left out " + joined(names)});
 }
 
-Notes write_surface_with_fields(const NamedSurface& surface, const std::optional<SurfaceMesh>& reference,
-                                FileOptions options, const ConvertFlags& flags) {
-  if (holds_fields(find_format(flags.output)->surface))
-    add_quality_fields(surface, reference ? &*reference : nullptr, options);
-  return write_surface(surface, flags.output, options);
+// Of what a program made the distances are from what it was made of, where nothing else is given.
+void take_reference(const MemoryMesh& given, const ConvertFlags& flags, std::optional<SurfaceMesh>& reference) {
+  const FileFormat& format = *find_format(flags.output);
+  if (reference || !given.reference || !(holds_fields(format.volume) || holds_fields(format.surface))) return;
+  reference = *given.reference;
+  scale(*reference, flags);
 }
 
 int convert(ConvertFlags flags) {
@@ -139,21 +142,27 @@ int convert(ConvertFlags flags) {
   inputs.insert(inputs.end(), flags.references.begin(), flags.references.end());
   require_writable(files, inputs, flags.force);
   require_usable(flags);
-  ProgressDisplay display(flags.display);
+  std::optional<ProgressDisplay> own;
+  ProgressDisplay& display = display_of(flags.display, own);
   display.begin("read");
-  MeshFile read = read_mesh(file_to_read(flags.input, flags.formats.from));
+  const MemoryMesh* given = flags.display.caller != nullptr ? flags.display.caller->input(0) : nullptr;
+  MeshFile read = given != nullptr ? mesh_in(*given) : read_mesh(file_to_read(flags.input, flags.formats.from));
   for (const std::string& warning : read.warnings) tell({flags.input.string() + ": " + warning});
   tell_other_arrays(read, flags);
-  const std::optional<SurfaceMesh> reference = read_reference(read, flags);
+  std::optional<SurfaceMesh> reference = read_reference(read, flags);
+  if (given != nullptr) take_reference(*given, flags, reference);
+  const MeasuredFrom from{.reference = reference ? &*reference : nullptr,
+                          .measured_vertices = given != nullptr ? given->measured_vertices : std::nullopt};
   settle_unit(read, flags, display);
   name_sets_again(read, flags);
-  FileOptions options{.provenance = name_of_input(flags.input),
-                      .msh_version = flags.msh_version,
-                      .element_fields = {},
-                      .node_fields = {},
-                      .ascii = flags.ascii,
-                      .set_prefix = flags.numbering.set_prefix,
-                      .numbers = flags.numbering.numbers};
+  FileOptions options{
+      .provenance = given != nullptr && !given->provenance.empty() ? given->provenance : name_of_input(flags.input),
+      .msh_version = flags.msh_version,
+      .element_fields = {},
+      .node_fields = {},
+      .ascii = flags.ascii,
+      .set_prefix = flags.numbering.set_prefix,
+      .numbers = flags.numbering.numbers};
   tell(keep_numbers(read, flags.output, options));
   if (const auto* surface = std::get_if<NamedSurface>(&read.mesh)) {
     if (!writes_surface(flags.output))
@@ -162,23 +171,21 @@ int convert(ConvertFlags flags) {
                         .value = {},
                         .limit = {},
                         .advice = "scan2fea tetrahedralize, or scan2fea run"});
-    tell(write_surface_with_fields(*surface, reference, options, flags));
+    tell(write_mesh(*surface, flags.output, from, options));
   } else if (const auto& mesh = std::get<TetMesh>(read.mesh); writes_volume(flags.output)) {
-    if (holds_fields(find_format(flags.output)->volume))
-      add_quality_fields(mesh, reference ? &*reference : nullptr, options);
     StagedOutputs deck;
     if (flags.deck) {
       require_deck(mesh, flags);
       deck.add(files.back().file, deck_text(mesh, flags.output, *flags.deck, options));
     }
-    tell(write_volume(mesh, flags.output, options));
+    tell(write_mesh(mesh, flags.output, from, options));
     deck.commit();
   } else {
     display.line("the boundary was written; " + flags.output.string() + " holds no tetrahedra");
     Notes notes;
     const NamedSurface boundary = named_boundary(mesh, notes);
     tell(notes);
-    tell(write_surface_with_fields(boundary, reference, options, flags));
+    tell(write_mesh(boundary, flags.output, from, options));
   }
   piped.send();
   display.finish();
@@ -217,7 +224,7 @@ SubCommand add_convert(CLI::App& root) {
   add_msh_version_flag(*app, flags->msh_version);
   add_number_flags(*app, flags->numbering);
   add_display_flags(*app, flags->display);
-  return {app, [flags] { return convert(*flags); }};
+  return {app, [flags] { return convert(*flags); }, &flags->display};
 }
 
 }  // namespace scan2fea::command

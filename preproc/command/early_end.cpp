@@ -9,8 +9,6 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
-#include <exception>
-#include <new>
 #include <pthread.h>
 #include <string>
 #include <string_view>
@@ -20,7 +18,7 @@
 namespace scan2fea::command {
 namespace {
 
-constexpr int interrupted = 130, out_of_time = 4, without_memory = 4;
+constexpr int interrupted = 130, out_of_time = 4;
 
 // What a signal handler looks at.
 pthread_t main_thread;
@@ -66,24 +64,6 @@ void call_end_on(int signal) {
 bool is_ignored(int signal) {
   struct sigaction action {};
   return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
-}
-
-// Where memory is so short that there is none for an exception, or where the exception is one that nobody may throw.
-[[noreturn]] void end_without_memory() {
-  try {
-    if (const std::exception_ptr exception = std::current_exception()) std::rethrow_exception(exception);
-  } catch (const std::bad_alloc&) {
-  } catch (...) {
-    std::abort();
-  }
-  remove_unfinished_outputs();
-  say("scan2fea: out of memory\n");
-  ::_exit(without_memory);
-}
-
-// Before what other sources make at the start.
-[[gnu::constructor(101)]] void end_when_out_of_memory() {
-  std::set_terminate(end_without_memory);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "export/formats.hpp"
 #include "export/units.hpp"
+#include "preproc/command/caller.hpp"
 #include "preproc/command/console.hpp"
 #include "preproc/command/expected_stages.hpp"
 #include "preproc/command/face_files.hpp"
@@ -26,10 +27,15 @@ struct FacesFlags {
 
 // A surface of any format, or the boundary of a volume mesh.
 NamedSurface read_part(CommonFlags& flags) {
-  MeshFile read = read_mesh(file_to_read(flags.input, flags.formats.from));
-  NamedSurface surface = read.is_volume() ? named_boundary(std::get<TetMesh>(read.mesh), read.warnings)
-                                          : std::get<NamedSurface>(std::move(read.mesh));
-  for (const std::string& warning : read.warnings) warn(flags.input.string() + ": " + warning);
+  NamedSurface surface;
+  if (const MemoryMesh* given = flags.caller != nullptr ? flags.caller->input(0) : nullptr) {
+    surface = surface_in(*given);
+  } else {
+    MeshFile read = read_mesh(file_to_read(flags.input, flags.formats.from));
+    surface = read.is_volume() ? named_boundary(std::get<TetMesh>(read.mesh), read.warnings)
+                               : std::get<NamedSurface>(std::move(read.mesh));
+    for (const std::string& warning : read.warnings) warn(flags.input.string() + ": " + warning);
+  }
   const std::string unit = settled_unit(surface.unit, flags.unit, flags.input.string());
   if (!unit.empty()) flags.unit = unit;
   return surface;
@@ -72,7 +78,8 @@ int list_faces(FacesFlags flags) {
   std::vector<OutputPath> files = report_outputs(flags.common);
   if (flags.output) files.push_back({*flags.output});
   require_writable(files, inputs_of(flags.common), flags.common.force);
-  ProgressDisplay display(flags.common);
+  std::optional<ProgressDisplay> own;
+  ProgressDisplay& display = display_of(flags.common, own);
   display.begin("read");
   NamedSurface surface = read_part(flags.common);
   SurfaceMesh& mesh = surface.mesh;
@@ -106,10 +113,14 @@ int list_faces(FacesFlags flags) {
   if (flags.output && passed)
     for (const std::string& note : write_face_file(surface, faces, *flags.output, outputs))
       if (!flags.common.quiet) warn(note);
-  if (!flags.common.quiet && flags.common.json != "-" && flags.common.junit != "-") write_to_stdout(table);
+  if (!flags.common.quiet && flags.common.caller == nullptr && flags.common.json != "-" && flags.common.junit != "-")
+    write_to_stdout(table);
   tell_failures(results, flags.common.input);
   outputs.commit();
   display.finish();
+  if (flags.common.caller != nullptr && passed)
+    flags.common.caller->made = std::make_shared<MemoryMesh>(MemoryMesh{
+        .held = MeshFile{.mesh = std::move(surface), .numbers = {}, .warnings = {}}, .name = flags.common.input});
   return passed ? 0 : 1;
 }
 
@@ -128,7 +139,7 @@ SubCommand add_faces(CLI::App& root) {
       ->type_name("FILE.ply|vtp|vtu");
   add_repair_flags(*app, flags->repair);
   add_feature_angle_flag(*app, flags->simplify.features);
-  return {app, [flags] { return list_faces(*flags); }};
+  return {app, [flags] { return list_faces(*flags); }, &flags->common};
 }
 
 }  // namespace scan2fea::command

@@ -1,5 +1,6 @@
 #include "preproc/command/figures.hpp"
 
+#include "preproc/command/caller.hpp"
 #include "preproc/command/console.hpp"
 #include "preproc/command/element_figures.hpp"
 #include "preproc/command/face_files.hpp"
@@ -161,9 +162,9 @@ Json extent_of(const std::vector<Vec3>& points) {
 }
 
 // What a file of figures says beside those that a terminal is told.
-void add_origin(const Subject& subject, Json& report) {
+void add_origin(const Subject& subject, const CommonFlags& flags, Json& report) {
   report["program"] = program_json();
-  report["command"] = command_json();
+  report["command"] = command_json(flags.caller != nullptr ? flags.caller->arguments : arguments_of_process());
   report["inputs"] = inputs_json(subject.inputs);
   if (subject.output) report["output"] = subject.output->string();
   if (subject.surface != nullptr) report["size"] = extent_of(subject.surface->vertices);
@@ -235,10 +236,10 @@ Json measure(const Subject& subject, const CommonFlags& flags) {
 
 std::vector<GateResult> finish_report(Json& report, const Subject& subject, const CommonFlags& flags,
                                       const std::vector<Gate>& gates, StagedOutputs& outputs) {
-  if (flags.json || flags.report || has_gate_on(gates, {"inputs", "size", "reference"})) add_origin(subject, report);
+  const bool wants_all = flags.json || flags.report || flags.caller != nullptr;
+  if (wants_all || has_gate_on(gates, {"inputs", "size", "reference"})) add_origin(subject, flags, report);
   ElementFigures elements;
-  if (subject.surface != nullptr &&
-      (flags.json || flags.report || has_gate_on(gates, {"histograms", "worst_elements"}))) {
+  if (subject.surface != nullptr && (wants_all || has_gate_on(gates, {"histograms", "worst_elements"}))) {
     elements = measure_elements(subject);
     add_to_json(elements, subject, report);
   }
@@ -246,6 +247,7 @@ std::vector<GateResult> finish_report(Json& report, const Subject& subject, cons
   if (flags.json) outputs.add_json(report, *flags.json);
   if (flags.junit) outputs.add_junit(junit_text(report, subject.output.value_or(flags.input).string()), *flags.junit);
   if (flags.report) outputs.add_report(report, page_of(report, elements, subject), flags);
+  if (flags.caller != nullptr) flags.caller->figures = report;
   return results;
 }
 
@@ -256,7 +258,7 @@ bool report_figures(const Subject& subject, const CommonFlags& flags, const std:
   if (flags.report) display.begin("report");
   const std::vector<GateResult> results = finish_report(report, subject, flags, gates, outputs);
   // With the JSON, the XML or the mesh on stdout the table goes where messages go.
-  if (!flags.quiet) {
+  if (!flags.quiet && flags.caller == nullptr) {
     const std::string table = to_table(report) + worst_element_row(subject, report);
     if (flags.json == "-" || flags.junit == "-" || flags.stdout_is_data)
       display.line(table);

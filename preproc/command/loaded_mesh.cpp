@@ -39,9 +39,12 @@ LoadedReference load_reference(const std::filesystem::path& file) {
 }  // namespace
 
 LoadedMesh load_mesh(const std::filesystem::path& file) {
-  MeshFile read = read_mesh(file);
+  return loaded(read_mesh(file), first_element_of(file));
+}
+
+LoadedMesh loaded(MeshFile read, std::uint64_t first_element) {
   std::vector<std::uint32_t> numbers;
-  if (first_element_of(file) > 0) numbers.assign(read.numbers.elements.begin(), read.numbers.elements.end());
+  if (first_element > 0) numbers.assign(read.numbers.elements.begin(), read.numbers.elements.end());
   if (auto* surface = std::get_if<NamedSurface>(&read.mesh))
     return {.surface = std::move(surface->mesh),
             .volume_mesh = {},
@@ -72,20 +75,35 @@ void compare_with(const LoadedReference& reference, Subject& subject) {
   subject.reference_is_of_bodies = reference.is_of_bodies;
 }
 
-LoadedReference load_references(const std::vector<std::filesystem::path>& files, const std::string& unit) {
+namespace {
+
+LoadedReference reference_in(const MemoryMesh& mesh) {
+  LoadedReference reference;
+  if (const auto* points = std::get_if<PointCloud>(&mesh.held))
+    reference.cloud = *points;
+  else
+    reference = reference_of(loaded(mesh_in(mesh), 0));
+  return reference;
+}
+
+}  // namespace
+
+LoadedReference load_references(const std::vector<std::filesystem::path>& files, const std::string& unit,
+                                const Caller* caller) {
+  const auto load = [&](std::size_t place) {
+    const bool is_given = caller != nullptr && place < caller->references.size() && caller->references[place];
+    LoadedReference one = is_given ? reference_in(*caller->references[place]) : load_reference(files[place]);
+    require_same_unit(unit, one.unit, files[place].string());
+    return one;
+  };
   if (files.empty()) return {};
-  if (files.size() == 1) {
-    LoadedReference reference = load_reference(files.front());
-    require_same_unit(unit, reference.unit, files.front().string());
-    return reference;
-  }
+  if (files.size() == 1) return load(0);
   LoadedReference all{.surface = SurfaceMesh{}, .cloud = {}, .solid_volume = 0, .is_of_bodies = true, .unit = unit};
-  for (const std::filesystem::path& file : files) {
-    const LoadedReference one = load_reference(file);
-    require_same_unit(unit, one.unit, file.string());
+  for (std::size_t r = 0; r < files.size(); ++r) {
+    const LoadedReference one = load(r);
     if (!one.surface)
       throw WrongUsage({.what = "a point cloud among several references",
-                        .where = file.string(),
+                        .where = files[r].string(),
                         .value = {},
                         .limit = {},
                         .advice = "surfaces, one for each body"});

@@ -1,6 +1,7 @@
 // A mesh that somebody made, as `check` and `compare` measure it, and what it is measured against.
 #pragma once
 
+#include "preproc/command/caller.hpp"
 #include "preproc/command/figures.hpp"
 #include "preproc/mesh/named_sets.hpp"
 #include "preproc/mesh/point_cloud.hpp"
@@ -23,6 +24,8 @@ struct LoadedMesh {
 };
 
 LoadedMesh load_mesh(const std::filesystem::path& file);
+// Of what was read, or is in memory, whose elements are counted from this number on; 0 where the file has no numbers.
+LoadedMesh loaded(MeshFile read, std::uint64_t first_element);
 
 // With its own figures, and nothing that it is compared with. The mesh must outlive it.
 Subject subject_of(const LoadedMesh& mesh);
@@ -39,9 +42,10 @@ struct LoadedReference {
 // The reference must outlive the subject.
 void compare_with(const LoadedReference& reference, Subject& subject);
 
-// Nothing of no file; one of them, or the surfaces of several bodies. Throws WrongUsage for a cloud among several, and where a file says
-// another unit than `unit`, that of the mesh.
-LoadedReference load_references(const std::vector<std::filesystem::path>& files, const std::string& unit);
+// Nothing of no file; one of them, or the surfaces of several bodies. Throws WrongUsage for a cloud among several, and
+// where a file says another unit than `unit`, that of the mesh. Those that a program has in memory are not read.
+LoadedReference load_references(const std::vector<std::filesystem::path>& files, const std::string& unit,
+                                const Caller* caller = nullptr);
 // Of a mesh of second order the surface is curved, in flat pieces; of one of several bodies it is all of their
 // surfaces.
 LoadedReference reference_of(LoadedMesh mesh);

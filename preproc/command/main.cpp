@@ -1,14 +1,11 @@
 // scan2fea: from a scanned surface to a finite-element mesh.
 #include "preproc/command/configuration.hpp"
 #include "preproc/command/console.hpp"
+#include "preproc/command/declared_commands.hpp"
 #include "preproc/command/early_end.hpp"
-#include "preproc/command/gate_flags.hpp"
-#include "preproc/command/help.hpp"
 #include "preproc/command/piped_files.hpp"
 #include "preproc/command/print_configuration.hpp"
-#include "preproc/command/program_version.hpp"
 #include "preproc/command/restart.hpp"
-#include "preproc/command/sub_commands.hpp"
 #include "preproc/command/wrong_usage.hpp"
 #include "preproc/mesh/error.hpp"
 
@@ -38,32 +35,6 @@ bool asks_for_json_lines(int argc, char** argv) {
   return false;
 }
 
-void declare(CLI::App& root, std::vector<SubCommand>& commands) {
-  root.formatter(std::make_shared<HelpFormatter>());
-  root.set_help_flag("-h,--help", "This text; scan2fea COMMAND --help for the options of a command");
-  root.set_version_flag(
-      "--version", [] { return version_text(); }, "Versions of the program, its libraries and its figures' format");
-  add_gate_list_flag(root);
-  for (CLI::Option* option : root.get_options(nullptr)) option->group("Flags");
-  root.require_subcommand(1);
-  root.footer(
-      "Exit codes: 0 done, 1 a gate failed, 2 wrong usage, 3 input unreadable, 4 no valid mesh can be made,\n"
-      "5 the tetrahedral mesher failed, 6 output cannot be written, 130 interrupted.\n\n"
-      "Examples:\n"
-      "  scan2fea check scan.ply\n"
-      "  scan2fea run scan.ply -o part.inp --unit mm\n"
-      "  scan2fea run scan.ply -o part.inp --faces 12000 --order 2 --report part-report\n"
-      "The manual: man scan2fea, or scan2fea manual | man -l -");
-  commands = {add_run(root),        add_surface(root),        add_repair(root),      add_enrich(root),
-              add_simplify(root),   add_tetrahedralize(root), add_reconstruct(root), add_faces(root),
-              add_check(root),      add_compare(root),        add_convert(root),     add_picture(root),
-              add_completion(root), add_manual(root)};
-  for (const SubCommand& command : commands) {
-    command.app->set_help_flag("-h,--help", "This text");
-    command.app->get_help_ptr()->group("Running");
-  }
-}
-
 int execute(CLI::App& root, const SubCommand& command, const RequiredLater& required) {
   const CLI::Option* config = command.app->get_option_no_throw("--config");
   if (config != nullptr && config->count() > 0) apply_configuration(root, *command.app, config->as<std::string>());
@@ -82,8 +53,7 @@ int execute(CLI::App& root, const SubCommand& command, const RequiredLater& requ
 
 int run_command(int argc, char** argv) {
   CLI::App root("From a scanned surface to a mesh that a finite-element solver accepts.", "scan2fea");
-  std::vector<SubCommand> commands;
-  declare(root, commands);
+  const std::vector<SubCommand> commands = declare_commands(root);
   const RequiredLater required(root);
   if (argc > 1 && argv[1][0] != '-') {
     const std::string unknown = unknown_command(root, argv[1]);

@@ -1,10 +1,8 @@
 #include "preproc/command/make_mesh.hpp"
 
 #include "export/formats.hpp"
-#include "export/surface_files.hpp"
-#include "export/units.hpp"
 #include "preproc/bodies_pipeline.hpp"
-#include "preproc/command/body_inputs.hpp"
+#include "preproc/command/caller.hpp"
 #include "preproc/command/console.hpp"
 #include "preproc/command/deck_needs.hpp"
 #include "preproc/command/early_end.hpp"
@@ -14,13 +12,12 @@
 #include "preproc/command/input_warnings.hpp"
 #include "preproc/command/option_text.hpp"
 #include "preproc/command/output_files.hpp"
-#include "preproc/command/quality_fields.hpp"
+#include "preproc/command/read_inputs.hpp"
 #include "preproc/command/size_checks.hpp"
 #include "preproc/command/stage_words.hpp"
+#include "preproc/command/write_mesh.hpp"
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/joined.hpp"
-#include "preproc/mesh/read_cloud.hpp"
-#include "preproc/mesh/read_surface.hpp"
 #include "preproc/mesh/write_surface.hpp"
 #include "preproc/surface/features/feature_file.hpp"
 
@@ -82,7 +79,13 @@ PipelineResult run_naming_input(Scan& scan, std::vector<Body> bodies, const Make
   }
 }
 
+// A program may want the mesh alone.
+bool writes(const MakeMeshJob& job) {
+  return !job.output.empty();
+}
+
 void require_known_format(const MakeMeshJob& job) {
+  if (!writes(job)) return;
   const std::filesystem::path& output = job.output;
   const bool known = job.pipeline.tetrahedralize ? writes_volume(output) : writes_surface(output);
   if (!known)
@@ -95,16 +98,17 @@ void require_known_format(const MakeMeshJob& job) {
 }
 
 // What remains of the time limit is for measuring and writing, which take longer the more was made. What does not come
-// to its end by itself is ended a little later.
+// to its end by itself is ended a little later, where it is a process of its own.
 Progress limited(const Progress& progress, const MakeMeshJob& job) {
   constexpr double for_improvement = 0.75, for_work = 0.9, latest = 1.15;
   constexpr double three_years = 1e8;  // after three hundred the clock's ticks overflow
   const double limit = std::min(*job.time_limit, three_years);
   char seconds[32];
   std::snprintf(seconds, sizeof seconds, "%.6g s", limit);
-  end_after(std::chrono::duration<double>(latest * limit),
-            job.common.input.string() + ": the time limit ended the work before there was a valid mesh (limit: " +
-                seconds + "); try: a longer --time-limit, --effort low, or fewer triangles");
+  if (job.common.caller == nullptr)
+    end_after(std::chrono::duration<double>(latest * limit),
+              job.common.input.string() + ": the time limit ended the work before there was a valid mesh (limit: " +
+                  seconds + "); try: a longer --time-limit, --effort low, or fewer triangles");
   const auto after = [limit, start = Progress::Clock::now()](double share) {
     return start + std::chrono::duration_cast<Progress::Clock::duration>(std::chrono::duration<double>(share * limit));
   };
@@ -114,83 +118,6 @@ Progress limited(const Progress& progress, const MakeMeshJob& job) {
 void tell_what_was_left_out(const PipelineResult& result, const MakeMeshJob& job) {
   if (result.left_out.empty()) return;
   warn(shown_name(job.common.input) + ": the time limit left out " + joined(result.left_out));
-}
-
-// In the formats of meshes, too, with the names that come with a surface. The unit is what the file says or the user,
-// who must not contradict one another.
-NamedScan read_file(const std::filesystem::path& input, MakeMeshJob& job) {
-  const std::filesystem::path file =
-      file_to_read(input, input == job.common.input ? job.common.formats.from : std::nullopt);
-  if (job.takes_clouds == TakesClouds::only) return read_cloud(file);
-  const FileFormat* format = find_format(file);
-  MeshFile read;
-  if (format != nullptr && format->read != read_plain_surface) {
-    read = read_mesh(file);
-    if (const auto* volume = std::get_if<TetMesh>(&read.mesh)) read.mesh = named_boundary(*volume, read.warnings);
-  } else if (job.takes_clouds == TakesClouds::no) {
-    read.mesh = read_named_surface(file);
-  } else {
-    NamedScan scan = read_named_scan(file);
-    if (auto* cloud = std::get_if<PointCloud>(&scan)) return std::move(*cloud);
-    read.mesh = std::get<NamedSurface>(std::move(scan));
-  }
-  for (const std::string& warning : read.warnings) warn(shown_name(input) + ": " + warning);
-  auto& surface = std::get<NamedSurface>(read.mesh);
-  const std::string unit = settled_unit(surface.unit, job.common.unit, input.string());
-  if (!unit.empty()) job.common.unit = unit;
-  return std::move(surface);
-}
-
-Scan read_input(MakeMeshJob& job) {
-  NamedScan read = read_file(job.common.input, job);
-  if (auto* cloud = std::get_if<PointCloud>(&read)) return std::move(*cloud);
-  auto& surface = std::get<NamedSurface>(read);
-  job.pipeline.given_sets = std::move(surface.face_sets);
-  return std::move(surface.mesh);
-}
-
-[[noreturn]] void refuse_cloud(const std::filesystem::path& file) {
-  throw WrongUsage({.what = "a point cloud among several bodies",
-                    .where = file.string(),
-                    .value = {},
-                    .limit = {},
-                    .advice = "scan2fea reconstruct, first"});
-}
-
-// The surfaces of more files, added to the first one's, with their sets.
-void add_to_one_body(MakeMeshJob& job, Scan& first) {
-  for (const std::filesystem::path& file : job.more_bodies) {
-    const NamedScan read = read_file(file, job);
-    const auto* more = std::get_if<NamedSurface>(&read);
-    auto* mesh = std::get_if<SurfaceMesh>(&first);
-    if (more == nullptr || mesh == nullptr) refuse_cloud(more == nullptr ? file : job.common.input);
-    const auto triangles = static_cast<std::uint32_t>(mesh->triangles.size());
-    append(*mesh, more->mesh);
-    for (const NamedSet& set : more->face_sets) {
-      std::vector<NamedSet>& sets = job.pipeline.given_sets;
-      std::vector<std::uint32_t>& members = sets[find_or_add_set(sets, set.name)].members;
-      for (const std::uint32_t f : set.members) members.push_back(triangles + f);
-    }
-  }
-}
-
-// Of the files, where there are several, or else of the groups of the only one; none where that is one body.
-std::vector<Body> read_bodies(MakeMeshJob& job, const Scan& first) {
-  const auto* mesh = std::get_if<SurfaceMesh>(&first);
-  if (job.one_body) return {};
-  if (job.more_bodies.empty())
-    return mesh == nullptr ? std::vector<Body>() : bodies_of_groups(*mesh, job.pipeline.given_sets);
-  std::vector<std::filesystem::path> files{name_of_input(job.common.input)};
-  files.insert(files.end(), job.more_bodies.begin(), job.more_bodies.end());
-  const std::vector<std::string> names = body_names(files);
-  std::vector<Body> bodies;
-  for (std::size_t b = 0; b < files.size(); ++b) {
-    const NamedScan read = b == 0 ? NamedScan() : read_file(files[b], job);
-    const auto* surface = std::get_if<NamedSurface>(&read);
-    if (b == 0 ? mesh == nullptr : surface == nullptr) refuse_cloud(files[b]);
-    bodies.push_back({names[b], b == 0 ? *mesh : surface->mesh});
-  }
-  return bodies;
 }
 
 // A cloud is thinned to what the triangles need that are asked for: two points a triangle.
@@ -254,7 +181,7 @@ void require_deck(const MakeMeshJob& job, const Scan& scan) {
 
 void require_writable_outputs(const MakeMeshJob& job) {
   std::vector<OutputPath> outputs = report_outputs(job.common);
-  if (!job.common.stdout_is_data) outputs.push_back({job.output});
+  if (writes(job) && !job.common.stdout_is_data) outputs.push_back({job.output});
   if (job.deck) outputs.push_back({deck_file(job.output, *job.deck)});
   if (job.features.write) outputs.push_back({*job.features.write});
   std::vector<std::filesystem::path> inputs = inputs_of(job.common);
@@ -281,31 +208,27 @@ FileOptions file_options(const MakeMeshJob& job) {
   return options;
 }
 
-// Of an enriched surface, as PLY has it.
-Field measured_vertices(const PipelineResult& result) {
-  Field measured{
-      .name = "measured", .values = std::vector<double>(result.surface.vertices.size(), 0), .names = {"measured"}};
-  std::fill_n(measured.values.begin(), *result.measured_vertices, 1);
-  return measured;
+NamedSurface surface_of(const PipelineResult& result, const MakeMeshJob& job) {
+  return {.mesh = result.surface, .node_sets = {}, .face_sets = result.face_sets, .unit = job.common.unit.value_or("")};
 }
 
-Notes write_result(PipelineResult& result, FileOptions options, const MakeMeshJob& job) {
-  const std::string unit = job.common.unit.value_or("");
-  if (result.volume_mesh) {
-    if (find_format(job.output)->volume->fields) add_quality_fields(*result.volume_mesh, &result.reference(), options);
-    return write_volume(*result.volume_mesh, job.output, options);
-  }
-  if (result.measured_vertices && is_surface_file(job.output)) {
-    write_surface(result.surface, job.output,
-                  {.measured = result.measured_vertices, .unit = unit, .face_sets = {}, .ascii = false});
-    return {};
-  }
-  const NamedSurface surface{.mesh = result.surface, .node_sets = {}, .face_sets = result.face_sets, .unit = unit};
-  if (find_format(job.output)->surface->fields) {
-    add_quality_fields(surface, &result.reference(), options);
-    if (result.measured_vertices) options.node_fields.push_back(measured_vertices(result));
-  }
-  return write_surface(surface, job.output, options);
+Notes write_result(const PipelineResult& result, const FileOptions& options, const MakeMeshJob& job) {
+  const MeasuredFrom from{.reference = &result.reference(), .measured_vertices = result.measured_vertices};
+  if (result.volume_mesh) return write_mesh(*result.volume_mesh, job.output, from, options);
+  return write_mesh(surface_of(result, job), job.output, from, options);
+}
+
+// To a program.
+void hand_over(PipelineResult result, const MakeMeshJob& job) {
+  MemoryMesh made{.held = MeshFile(), .name = job.common.input, .provenance = file_options(job).provenance};
+  made.measured_vertices = result.measured_vertices;
+  auto& file = std::get<MeshFile>(made.held);
+  if (result.volume_mesh)
+    file.mesh = std::move(*result.volume_mesh);
+  else
+    file.mesh = surface_of(result, job);
+  made.reference = std::make_shared<SurfaceMesh>(result.given ? std::move(*result.given) : std::move(result.scan));
+  job.common.caller->made = std::make_shared<MemoryMesh>(std::move(made));
 }
 
 // The mesh goes there, and nothing else.
@@ -335,6 +258,11 @@ void settle_options(MakeMeshJob& job) {
   if (job.enrich) job.pipeline.enrich = job.enrich_options;
 }
 
+std::optional<std::filesystem::path> output_of(const MakeMeshJob& job) {
+  if (!writes(job)) return {};
+  return job.common.stdout_is_data ? "-" : job.output;
+}
+
 Subject subject_of(const PipelineResult& result, const SurfaceMesh& boundary, const Scan& scan,
                    const MakeMeshJob& job) {
   return {.surface = result.volume_mesh ? &boundary : &result.surface,
@@ -356,13 +284,12 @@ Subject subject_of(const PipelineResult& result, const SurfaceMesh& boundary, co
           .touches = &result.touches,
           .face_sets = &result.face_sets,
           .inputs = read_files(job),
-          .output = job.common.stdout_is_data ? "-" : job.output,
-          .first_element = first_element_of(job.output, job.numbering.numbers),
+          .output = output_of(job),
+          .first_element = writes(job) ? first_element_of(job.output, job.numbering.numbers) : 0,
           .element_numbers = {}};
 }
 
 void write_all(PipelineResult& result, const MakeMeshJob& job, ProgressDisplay& display, StagedOutputs& outputs) {
-  if (result.volume_mesh) result.volume_mesh->unit = job.common.unit.value_or("");
   const FileOptions options = file_options(job);
   if (job.deck) {
     const std::filesystem::path file = deck_file(job.output, *job.deck);
@@ -398,7 +325,8 @@ void add_surface_flags(CLI::App& command, MakeMeshJob& job) {
 }
 
 int make_mesh(MakeMeshJob job) {
-  ProgressDisplay display(job.common);
+  std::optional<ProgressDisplay> own;
+  ProgressDisplay& display = display_of(job.common, own);
   const Progress progress = job.time_limit ? limited(display.progress(), job) : display.progress();
   const PipedOutput piped(job.output, job.common.formats.to);
   take_stdout(piped, job);
@@ -408,9 +336,7 @@ int make_mesh(MakeMeshJob job) {
 
   display.expect(expected_stages(job, expected_work(job)));
   display.begin("read");
-  Scan scan = read_input(job);
-  if (job.one_body) add_to_one_body(job, scan);
-  std::vector<Body> bodies = read_bodies(job, scan);
+  auto [scan, bodies] = read_inputs(job);
   parse_sets(job);
   require_deck(job, scan);
   describe_inputs(scan, bodies, job, display);
@@ -430,12 +356,14 @@ int make_mesh(MakeMeshJob job) {
       return 1;
     }
   }
+  if (result.volume_mesh) result.volume_mesh->unit = job.common.unit.value_or("");
   display.begin("write");
-  write_all(result, job, display, outputs);
+  if (writes(job)) write_all(result, job, display, outputs);
   outputs.commit();
   piped.send();
-  ends_by_itself_now();
+  if (job.common.caller == nullptr) ends_by_itself_now();
   display.finish();
+  if (job.common.caller != nullptr) hand_over(std::move(result), job);
   return 0;
 }
 

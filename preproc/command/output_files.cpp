@@ -31,7 +31,7 @@ fs::path existing_folder_above(const fs::path& file) {
   return folder;
 }
 
-void require_writable(const OutputPath& output, bool force) {
+void require_possible(const OutputPath& output, bool force) {
   const fs::path& file = output.file;
   std::error_code error;
   const auto status = fs::status(file, error);
@@ -96,7 +96,7 @@ void require_writable(const std::vector<OutputPath>& outputs, const std::vector<
                         .limit = {},
                         .advice = "another name"});
   }
-  for (const OutputPath& output : outputs) require_writable(output, force);
+  for (const OutputPath& output : outputs) require_possible(output, force);
 }
 
 void StagedOutputs::add(const fs::path& file, const std::string& text, OutputFile::Folder folder) {

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <map>
+#include <mutex>
 #include <string_view>
 #include <unistd.h>
 #include <vector>
@@ -66,6 +67,8 @@ bool is_pipe(const fs::path& file) {
 }
 
 fs::path file_to_read(const fs::path& input, const std::optional<std::string>& from) {
+  static std::mutex of_kept_inputs;
+  const std::lock_guard lock(of_kept_inputs);
   std::unique_ptr<OutputFile>& kept = kept_inputs()[input.string()];
   if (kept) return kept->temporary_path();
   if (!from) {

@@ -87,7 +87,7 @@ void ProgressDisplay::stop() {
 Progress ProgressDisplay::progress() {
   const auto callback = [this](std::string_view name, double) {
     step(name);
-    return true;
+    return !is_cancelled_;
   };
   const auto announce = [this](std::string_view work, double processor_seconds) {
     {
@@ -150,17 +150,26 @@ void ProgressDisplay::draw_until_stopped() {
 }
 
 void ProgressDisplay::draw(RunEstimate::State state, RunEstimate::Time now) {
-  const std::string words(words_of_stage(estimate_.stage()));
-  if (mode_ == ProgressMode::bar) {
-    show_bar(bar_text(words, words_of_step(step_), state, terminal_width()));
-    return;
-  }
-  nlohmann::ordered_json line{{"type", "progress"}, {"stage", estimate_.stage()}, {"words", words}};
+  if (mode_ == ProgressMode::bar)
+    show_bar(bar_text(std::string(words_of_stage(estimate_.stage())), words_of_step(step_), state, terminal_width()));
+  else
+    say_raw(json_line(state, now) + "\n");
+}
+
+std::string ProgressDisplay::told() {
+  const std::lock_guard lock(mutex_);
+  const RunEstimate::Time now = RunEstimate::Clock::now();
+  return estimate_.stage().empty() ? std::string() : json_line(estimate_.at(now), now);
+}
+
+std::string ProgressDisplay::json_line(RunEstimate::State state, RunEstimate::Time now) const {
+  nlohmann::ordered_json line{
+      {"type", "progress"}, {"stage", estimate_.stage()}, {"words", words_of_stage(estimate_.stage())}};
   if (!step_.empty()) line["step"] = step_;
   line["fraction"] = state.fraction < 1 ? std::min(rounded(state.fraction, 10000), 0.9999) : 1;
   line["seconds"] = rounded(std::chrono::duration<double>(now - start_).count(), 1000);
   line["seconds_left"] = rounded(state.seconds_left, 10);
-  say_raw(line.dump() + "\n");
+  return line.dump();
 }
 
 void ProgressDisplay::line(const std::string& text) {

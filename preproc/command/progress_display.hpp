@@ -12,6 +12,7 @@
 #include "preproc/mesh/progress.hpp"
 #include "preproc/mesh/run_estimate.hpp"
 
+#include <atomic>
 #include <condition_variable>
 #include <mutex>
 #include <string>
@@ -22,11 +23,14 @@ namespace scan2fea::command {
 
 enum class ProgressMode { automatic, off, bar, json };
 
+struct Caller;
+
 // That every sub-command knows.
 struct DisplayFlags {
   bool quiet = false;    // no messages but errors
   bool verbose = false;  // why stages came out as they did, too
   ProgressMode progress = ProgressMode::automatic;
+  Caller* caller = nullptr;  // a program, not a shell; then nothing of the above is asked for (caller.hpp)
 };
 
 class ProgressDisplay {
@@ -48,10 +52,16 @@ class ProgressDisplay {
   void detail(const std::string& text);
   bool is_verbose() const { return flags_.verbose && !flags_.quiet; }
 
+  // For a program that looks by itself: such a line of JSON, empty before the first stage. What works is asked to stop,
+  // and throws Cancelled where it tells how far it is. Both from any thread.
+  std::string told();
+  void cancel() { is_cancelled_ = true; }
+
  private:
   void step(std::string_view name);
   void draw_until_stopped();
   void draw(RunEstimate::State state, RunEstimate::Time now);
+  std::string json_line(RunEstimate::State state, RunEstimate::Time now) const;
   void stop();
 
   DisplayFlags flags_;
@@ -62,6 +72,7 @@ class ProgressDisplay {
   std::mutex mutex_;  // of what the drawing thread reads
   std::condition_variable changed_;
   bool has_changed_ = false, is_stopped_ = false;
+  std::atomic<bool> is_cancelled_{false};
   std::thread drawing_;
 };
 

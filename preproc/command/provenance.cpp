@@ -51,18 +51,22 @@ Json program_json() {
           {"libraries", {{"CGAL", SCAN2FEA_CGAL_VERSION}, {"TetGen", SCAN2FEA_TETGEN_VERSION}, {"Eigen", eigen}}}};
 }
 
-Json command_json() {
+std::vector<std::string> arguments_of_process() {
   std::ifstream stream("/proc/self/cmdline", std::ios::binary);
   const std::string line{std::istreambuf_iterator<char>(stream), {}};
-  Json arguments = Json::array();
+  std::vector<std::string> arguments;
   for (std::size_t at = 0; at < line.size();) {
     const std::size_t end = std::min(line.find('\0', at), line.size());
     arguments.push_back(line.substr(at, end - at));
     at = end + 1;
   }
   if (!arguments.empty()) arguments[0] = "scan2fea";  // wherever it was started from
+  return arguments;
+}
+
+Json command_json(const std::vector<std::string>& arguments) {
   std::error_code ignored;
-  return {{"folder", std::filesystem::current_path(ignored).string()}, {"arguments", std::move(arguments)}};
+  return {{"folder", std::filesystem::current_path(ignored).string()}, {"arguments", arguments}};
 }
 
 Json inputs_json(const std::vector<ReadFile>& files) {

@@ -17,8 +17,11 @@ struct ReadFile {
 // {name, version, libraries {name: version}}
 Json program_json();
 
-// {folder, arguments}: of this process, as the shell gave them.
-Json command_json();
+// As the shell gave them to this process.
+std::vector<std::string> arguments_of_process();
+
+// {folder, arguments}
+Json command_json(const std::vector<std::string>& arguments);
 
 // [{role, file, bytes, sha256}]; null where a file is no longer to be read, a pipe say.
 Json inputs_json(const std::vector<ReadFile>& files);

@@ -20,7 +20,7 @@ SubCommand add_reconstruct(CLI::App& root) {
   add_time_limit_flag(*app, job->time_limit);
   add_reconstruct_flags(*app, job->pipeline.reconstruct);
   add_repair_flags(*app, *job->pipeline.repair);
-  return {app, [job] { return make_mesh(*job); }};
+  return {app, [job] { return make_mesh(*job); }, &job->common};
 }
 
 }  // namespace scan2fea::command

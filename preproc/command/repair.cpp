@@ -17,7 +17,7 @@ SubCommand add_repair(CLI::App& root) {
   add_to_flag(*app, job->common.formats.to);
   add_time_limit_flag(*app, job->time_limit);
   add_repair_flags(*app, *job->pipeline.repair);
-  return {app, [job] { return make_mesh(*job); }};
+  return {app, [job] { return make_mesh(*job); }, &job->common};
 }
 
 }  // namespace scan2fea::command

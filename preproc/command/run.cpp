@@ -31,7 +31,8 @@ SubCommand add_run(CLI::App& root) {
   add_deck_flag(*app, job->deck);
   add_msh_version_flag(*app, job->msh_version);
   add_number_flags(*app, job->numbering);
-  return {app, [job] {
+  return {app,
+          [job] {
             if (job->pipeline.repair->holes == Holes::keep)
               throw WrongUsage({.what = "a volume needs a closed surface",
                                 .where = {},
@@ -39,7 +40,8 @@ SubCommand add_run(CLI::App& root) {
                                 .limit = "--holes close",
                                 .advice = "scan2fea surface for an open one"});
             return make_mesh(*job);
-          }};
+          },
+          &job->common};
 }
 
 }  // namespace scan2fea::command

@@ -20,7 +20,7 @@ SubCommand add_simplify(CLI::App& root) {
   add_simplify_flags(*app, *job->pipeline.simplify);
   add_feature_file_flags(*app, job->features);
   add_effort_flag(*app, job->pipeline);
-  return {app, [job] { return make_mesh(*job); }};
+  return {app, [job] { return make_mesh(*job); }, &job->common};
 }
 
 }  // namespace scan2fea::command

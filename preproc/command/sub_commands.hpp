@@ -7,9 +7,12 @@
 
 namespace scan2fea::command {
 
+struct DisplayFlags;
+
 struct SubCommand {
   CLI::App* app;
-  std::function<int()> execute;  // called after all flags and the configuration are in; returns the exit status
+  std::function<int()> execute;   // called after all flags and the configuration are in; returns the exit status
+  DisplayFlags* flags = nullptr;  // of those that work on meshes in memory, too: where they learn who calls
 };
 
 SubCommand add_run(CLI::App& root);

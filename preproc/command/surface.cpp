@@ -14,7 +14,7 @@ SubCommand add_surface(CLI::App& root) {
       "Examples:\n"
       "  scan2fea surface scan.stl -o part.stl --edge-length 1.5");
   add_surface_flags(*app, *job);
-  return {app, [job] { return make_mesh(*job); }};
+  return {app, [job] { return make_mesh(*job); }, &job->common};
 }
 
 }  // namespace scan2fea::command

@@ -22,7 +22,7 @@ SubCommand add_tetrahedralize(CLI::App& root) {
   add_tetrahedralize_flags(*app, *job->pipeline.tetrahedralize, job->pipeline.order);
   add_msh_version_flag(*app, job->msh_version);
   add_number_flags(*app, job->numbering);
-  return {app, [job] { return make_mesh(*job); }};
+  return {app, [job] { return make_mesh(*job); }, &job->common};
 }
 
 }  // namespace scan2fea::command

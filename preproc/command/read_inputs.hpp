@@ -1,0 +1,21 @@
+// What a job is of, read from its files or taken from the program that called, which has it in memory.
+#pragma once
+
+#include "preproc/bodies/body_complex.hpp"
+#include "preproc/command/make_mesh.hpp"
+#include "preproc/mesh/read_cloud.hpp"
+
+#include <vector>
+
+namespace scan2fea::command {
+
+struct ReadInputs {
+  Scan scan;
+  std::vector<Body> bodies;  // where there are several, the scan among them
+};
+
+// Settles the job's unit, and sets that the input came with. Throws what readers throw, and WrongUsage for a cloud
+// among several bodies.
+ReadInputs read_inputs(MakeMeshJob& job);
+
+}  // namespace scan2fea::command
