@@ -138,7 +138,7 @@ TEST(IncludeDirection, FindsAFolderWithoutARule) {
               testing::ElementsAre("clouds/stage.h includes quality/report.hpp"));
 }
 
-TEST(IncludeDirection, NothingIncludesTheCommand) {
+TEST(IncludeDirection, NoTestIncludesTheCommand) {
   const TemporaryFolder tree;
   for (const char* folder : {"tests", "preproc/command"}) fs::create_directories(tree / folder);
   std::ofstream(tree / "preproc/command/flags.hpp") << "#pragma once\n";

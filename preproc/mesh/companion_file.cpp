@@ -29,7 +29,8 @@ fs::path folder_of_this_code() {
 fs::path companion_file(std::string_view name) {
   const fs::path folder = folder_of_this_code();
   const fs::path beside = folder / name;
-  for (const char* companions : {".", SCAN2FEA_COMPANIONS_FROM_COMMAND, SCAN2FEA_COMPANIONS_FROM_LIBRARY}) {
+  for (const char* companions :
+       {".", SCAN2FEA_COMPANIONS_FROM_COMMAND, SCAN2FEA_COMPANIONS_FROM_LIBRARY, SCAN2FEA_COMPANIONS_FROM_PYTHON}) {
     const fs::path file = (folder / companions / name).lexically_normal();
     std::error_code error;
     if (fs::exists(file, error)) return file;
