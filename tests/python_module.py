@@ -196,12 +196,15 @@ def tell_errors(command, scan, folder):
     expect(error.where == "--edge-length" and error.value and error.limit and error.advice, "it has its parts")
     expect(error.exit_code == done.returncode == 2, "and the exit code")
     error = failure(scan2fea.WrongUsage, scan2fea.run, mesh, edge_lenght=1)
-    expect("edge-length" in error.value, f"a mistyped option is answered: {error}")
+    expect("edge_length" in error.value, f"a mistyped option is answered: {error}")
     error = failure(scan2fea.WrongUsage, scan2fea.run, mesh, faces=100, ratio=0.5)
     expect("excludes" in error.what, f"two sizes are one too many: {error}")
     failure(scan2fea.WrongUsage, scan2fea.run, mesh, deck="static")
     failure(scan2fea.WrongUsage, scan2fea.run, mesh, quiet=True)
     failure(TypeError, scan2fea.run, mesh, faces={})
+    failure(TypeError, scan2fea.run, mesh, input="scan.ply")
+    failure(TypeError, scan2fea.simplify, [mesh, mesh])
+    failure(TypeError, scan2fea.run, None)
     error = failure(scan2fea.InvalidInput, scan2fea.read, os.path.join(folder, "missing.ply"))
     expect("missing.ply" in error.where and error.exit_code == 3, f"a missing file is told: {error}")
     failure(scan2fea.InvalidInput, scan2fea.check, scan2fea.mesh(ball(1)[0]))
@@ -218,6 +221,17 @@ def tell_errors(command, scan, folder):
         points, cells = ball(2, radius=1e-4)
         told = scan2fea.run((points, cells), unit="mm", faces=100).warnings
     expect(told and [str(w.message) for w in caught] == told, "warnings are Python's, and in the result")
+
+
+# What has no file has no hash: the page says so.
+def write_report(folder):
+    page = os.path.join(folder, "report")
+    figures = scan2fea.check(scan2fea.mesh(*ball(1), name="a ball"), report=page, require=["edge_ratio.mean<=3"])
+    with open(os.path.join(page, "report.json"), encoding="utf-8") as stream:
+        expect(json.load(stream) == figures, "the report's figures are those that come back")
+    line = ["scan2fea", "check", "a ball", "--report", page, "--require", "edge_ratio.mean<=3"]
+    expect(figures["command"]["arguments"] == line, "it tells the command that does the same")
+    expect(b"a ball" in contents(os.path.join(page, "report.html")), "and names the mesh")
 
 
 def follow_progress(scan):
@@ -350,7 +364,7 @@ def main():
 
         steps = (compare_runs, partial(compare_faces, asked.command, folder),
                  partial(compare_stages, asked.command, folder), make_of_arrays,
-                 partial(tell_errors, asked.command, asked.scan, folder), partial(follow_progress, asked.scan),
+                 partial(tell_errors, asked.command, asked.scan, folder), partial(write_report, folder), partial(follow_progress, asked.scan),
                  partial(interrupt, asked.scan), use_threads, look_for_leaks,
                  partial(follow_readme, asked.readme, asked.scan, folder), partial(check_stub, folder))
         for step in steps:

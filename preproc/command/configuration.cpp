@@ -168,6 +168,19 @@ bool is_keyword(const CLI::Option& option) {
   return option.get_configurable() && std::ranges::none_of(option.get_lnames(), is_of_terminal);
 }
 
+namespace {
+
+std::vector<std::string> keywords_of(const CLI::App& command) {
+  std::vector<std::string> keywords;
+  for (const OptionText& option : options_of(command))
+    if (is_keyword(*option.option))
+      keywords.push_back(option.names.back().substr(option.names.back().find_first_not_of('-')));
+  for (std::string& keyword : keywords) std::ranges::replace(keyword, '-', '_');
+  return keywords;
+}
+
+}  // namespace
+
 void apply_keywords(CLI::App& command, const std::vector<Keyword>& keywords) {
   std::vector<Setting> settings;
   for (const Keyword& keyword : keywords) {
@@ -177,7 +190,7 @@ void apply_keywords(CLI::App& command, const std::vector<Keyword>& keywords) {
     if (option == nullptr || !is_keyword(*option))
       throw WrongUsage({.what = "unknown option",
                         .where = command.get_name(),
-                        .value = keyword.name + did_you_mean(key, keys_of(command)),
+                        .value = keyword.name + did_you_mean(keyword.name, keywords_of(command)),
                         .limit = {},
                         .advice = "the names of `scan2fea " + command.get_name() + " --help`, with _ for -"});
     std::vector<std::string> values;

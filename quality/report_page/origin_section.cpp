@@ -36,13 +36,19 @@ bool has_failed(const Json& report) {
   return std::ranges::any_of(report["gates"], [](const Json& gate) { return !gate["pass"].get<bool>(); });
 }
 
+// What came through a pipe, or was in the memory of a program, has none.
+std::string hash_of(const Json& input) {
+  if (input["sha256"].is_null()) return {};
+  return "<code class=\"hash\">" + escaped(input["sha256"].get<std::string>()) + "</code>";
+}
+
 std::string file_table(const Json& report) {
   Table table("Files", {"What", "File", "#Bytes", "SHA-256"});
   if (report.contains("inputs"))
     for (const Json& input : report["inputs"])
       table.row({escaped(input["role"].get<std::string>()),
                  "<code>" + escaped(input["file"].get<std::string>()) + "</code>", number(input["bytes"]),
-                 "<code class=\"hash\">" + escaped(input["sha256"].get<std::string>()) + "</code>"});
+                 hash_of(input)});
   if (report.contains("output"))
     table.row({has_failed(report) ? "not written, since a gate failed" : "written",
                "<code>" + escaped(report["output"].get<std::string>()) + "</code>", "", ""});

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy
 
 from . import _scan2fea
-from ._errors import GateFailed, MeshWarning, WrongUsage
+from ._errors import GateFailed, MeshWarning
 
 
 class Result(NamedTuple):
@@ -48,6 +48,9 @@ def _is_path(given):
 # As a list of meshes or None, and one of the names by which messages call them.
 def _sources(given):
     several = given if isinstance(given, list) else [given]
+    for one in several:
+        if not (_is_path(one) or isinstance(one, (_scan2fea.Mesh, tuple))):
+            raise TypeError(f"a Mesh, a file's name or (points, cells) is needed, not {type(one).__name__}")
     meshes = [None if _is_path(one) else one if isinstance(one, _scan2fea.Mesh) else mesh(*one) for one in several]
     return meshes, [os.fsencode(one if held is None else held.name) for one, held in zip(several, meshes)]
 
@@ -109,8 +112,11 @@ def _warn(lines):
 
 def _call(command, given, options, progress=None, reference=None):
     inputs, names = _sources(given)
-    if not names:
-        raise WrongUsage(f"{command}: there is no input", what="there is no input", where=command)
+    if not names or (len(names) > 1 and command != "run"):
+        raise TypeError(f"{command} takes {'at least ' if command == 'run' else ''}one mesh, not {len(names)}")
+    for name in ("input", "more"):
+        if name in options:
+            raise TypeError(f"{command} takes its meshes first, and no keyword {name}")
     keywords = [("input", [[names[0]]])] + ([("more", [[name] for name in names[1:]])] if names[1:] else [])
     references = []
     if reference is not None:
