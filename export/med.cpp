@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <dlfcn.h>
+#include <mutex>
 #include <span>
 
 namespace scan2fea {
@@ -33,6 +34,9 @@ void* load(const char* function_name) {
                  .limit = {},
                  .advice = "install scan2fea anew, with the module, and Debian's libmedc11"});
 }
+
+// The library keeps the one file in memory that it is at, and HDF5 more: several threads of a program may come here.
+std::mutex one_at_a_time;
 
 constexpr NameRules rules{
     .longest = 79, .upper_case = false, .allowed = " _-.+:/()", .starts_with_letter = true, .keeps_reserved = true};
@@ -62,7 +66,10 @@ void write(const MedMesh& mesh, const std::filesystem::path& file) {
   auto* const write_by_med = reinterpret_cast<WriteByMed*>(load(write_by_med_name));
   OutputFile output(file);
   std::string bytes, failure;
-  write_by_med(mesh, bytes, failure);
+  {
+    const std::lock_guard lock(one_at_a_time);
+    write_by_med(mesh, bytes, failure);
+  }
   if (!failure.empty()) throw IoError({"the MED library cannot write the file", file.string(), failure, {}, {}});
   output.stream().write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   output.commit();
@@ -163,7 +170,10 @@ MeshFile read_med(const std::filesystem::path& file) {
   auto* const read_by_med = reinterpret_cast<ReadByMed*>(load(read_by_med_name));
   MedMesh med;
   std::string failure;
-  read_by_med(file, med, failure);
+  {
+    const std::lock_guard lock(one_at_a_time);
+    read_by_med(file, med, failure);
+  }
   if (!failure.empty()) exists.fail(failure);
   RawMesh raw;
   for (std::size_t i = 0; i + 2 < med.coordinates.size(); i += 3) {
