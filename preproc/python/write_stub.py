@@ -4,7 +4,10 @@ usage: write_stub.py __init__.pyi        with the package on PYTHONPATH
 """
 import inspect
 import sys
+import types
 
+# Not needed to ask for the options; pip builds without it.
+sys.modules.setdefault("numpy", types.ModuleType("numpy"))
 import scan2fea
 from scan2fea import _calls
 
