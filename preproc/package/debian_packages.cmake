@@ -43,4 +43,7 @@ endif()
 include(CPack)
 add_custom_target(packages VERBATIM USES_TERMINAL
   COMMAND ${CMAKE_CPACK_COMMAND} --config ${PROJECT_BINARY_DIR}/CPackConfig.cmake)
-add_dependencies(packages scan2fea libscan2fea scan2fea-tetgen scan2fea-med $<TARGET_NAME_IF_EXISTS:scan2fea_python>)
+add_dependencies(packages scan2fea libscan2fea scan2fea-tetgen scan2fea-med)
+if(TARGET scan2fea_python)
+  add_dependencies(packages scan2fea_python)
+endif()
