@@ -131,7 +131,8 @@ Notes write_mail(const TetMesh& given, const std::filesystem::path& file, const 
   Notes notes;
   const TetMesh mesh = with_whole_sets(given, options.set_prefix, notes);
   const WrittenNames names = names_of_whole(mesh, notes);
-  OutputFile output(file);
+  OutputFiles files(options.together);
+  OutputFile& output = files.open(file);
   {
     TextOutput out(output.stream());
     out << "% written by scan2fea\n";
@@ -144,11 +145,10 @@ Notes write_mail(const TetMesh& given, const std::filesystem::path& file, const 
     write_groups(out, "GROUP_MA", mesh.element_sets, names.elements,
                  [&](std::uint32_t t) { return element(numbers.element(t)); });
     write_groups(out, "GROUP_MA", mesh.face_sets, names.faces, [&](std::uint32_t f) { return element(triangles[f]); });
-    write_groups(out, "GROUP_NO", mesh.node_sets, names.nodes,
-                 [&](std::uint32_t n) { return node(numbers.node(n)); });
+    write_groups(out, "GROUP_NO", mesh.node_sets, names.nodes, [&](std::uint32_t n) { return node(numbers.node(n)); });
     out << "FIN\n";
   }
-  output.commit();
+  files.commit();
   return notes;
 }
 

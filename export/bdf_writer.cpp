@@ -159,7 +159,8 @@ Notes write_bdf(const TetMesh& given, const std::filesystem::path& file, const F
   const std::vector<std::string> faces = names_for(mesh.face_sets, rules, {}, notes);
   const std::vector<std::string> nodes = names_for(mesh.node_sets, rules, {}, notes);
   const SetParts parts = set_parts(mesh.element_sets, mesh.tetrahedra.size());
-  OutputFile output(file);
+  OutputFiles files(options.together);
+  OutputFile& output = files.open(file);
   {
     TextOutput out(output.stream());
     write_header(out, mesh.nodes, mesh.unit, options);
@@ -175,7 +176,7 @@ Notes write_bdf(const TetMesh& given, const std::filesystem::path& file, const F
     write_face_sets(out, mesh, faces, options.numbers.other(1 + mesh.node_sets.size()), options);
     out << "ENDDATA\n";
   }
-  output.commit();
+  files.commit();
   return notes;
 }
 
@@ -184,7 +185,8 @@ Notes write_bdf(const NamedSurface& surface, const std::filesystem::path& file, 
   const std::vector<std::string> faces = names_for(surface.face_sets, surface_rules(), {}, notes);
   const std::vector<std::string> nodes = names_for(surface.node_sets, surface_rules(), {}, notes);
   const SetParts parts = set_parts(surface.face_sets, surface.mesh.triangles.size());
-  OutputFile output(file);
+  OutputFiles files(options.together);
+  OutputFile& output = files.open(file);
   {
     TextOutput out(output.stream());
     write_header(out, surface.mesh.vertices, surface.unit, options);
@@ -197,7 +199,7 @@ Notes write_bdf(const NamedSurface& surface, const std::filesystem::path& file, 
     write_node_sets(out, surface.node_sets, nodes, options.numbers.other(1), options);
     out << "ENDDATA\n";
   }
-  output.commit();
+  files.commit();
   return notes;
 }
 

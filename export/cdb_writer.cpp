@@ -133,7 +133,8 @@ Notes write_cdb(const TetMesh& given, const std::filesystem::path& file, const F
   const std::vector<std::string> names =
       names_for(sets, {.longest = 32, .upper_case = true, .allowed = "_", .keeps_reserved = true}, {}, notes);
   const std::size_t faces = mesh.element_sets.size(), nodes = faces + mesh.face_sets.size();
-  OutputFile output(file);
+  OutputFiles files(options.together);
+  OutputFile& output = files.open(file);
   {
     TextOutput out(output.stream());
     write_header(out, mesh, options);
@@ -146,7 +147,7 @@ Notes write_cdb(const TetMesh& given, const std::filesystem::path& file, const F
       });
     out << "FINISH\n";
   }
-  output.commit();
+  files.commit();
   return notes;
 }
 

@@ -6,7 +6,6 @@
 #include "preproc/mesh/unit_comment.hpp"
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <span>
 
@@ -94,11 +93,11 @@ Notes write_elmer(const TetMesh& mesh, const std::filesystem::path& file, const 
   const SetParts of_elements = set_parts(mesh.element_sets, mesh.tetrahedra.size());
   const SetParts of_faces = set_parts(mesh.face_sets, mesh.boundary.size());
   const std::filesystem::path folder = file.parent_path();
-  OutputFile nodes(folder / "mesh.nodes"), elements(folder / "mesh.elements"), boundary(folder / "mesh.boundary"),
-      names(folder / "mesh.names"), header(file);
+  OutputFiles files(options.together);
   {
-    TextOutput of_header(header.stream()), of_nodes(nodes.stream()), elements_out(elements.stream()),
-        boundary_out(boundary.stream()), out(names.stream());
+    const auto open = [&](const char* name) -> std::ostream& { return files.open(folder / name).stream(); };
+    TextOutput of_nodes(open("mesh.nodes")), elements_out(open("mesh.elements")), boundary_out(open("mesh.boundary")),
+        out(open("mesh.names")), of_header(files.open(file).stream());
     write_header(of_header, mesh);
     write_nodes(of_nodes, mesh);
     write_elements(elements_out, mesh, of_elements);
@@ -109,9 +108,7 @@ Notes write_elmer(const TetMesh& mesh, const std::filesystem::path& file, const 
     write_names(out, "body", options.set_prefix + "EALL", of_elements, bodies);
     write_names(out, "boundary", options.set_prefix + "SALL", of_faces, boundaries);
   }
-  const std::array<OutputFile*, 5> all{&nodes, &elements, &boundary, &names, &header};
-  for (OutputFile* output : all) output->finish();  // before the first is in place
-  for (OutputFile* output : all) output->commit();
+  files.commit();
   return notes;
 }
 

@@ -129,10 +129,10 @@ class Writer {
     });
   }
 
-  void write(const std::filesystem::path& file) const {
-    OutputFile output(file);
-    out_.write(output.stream());
-    output.commit();
+  void write(const std::filesystem::path& file, OutputFiles* together) const {
+    OutputFiles files(together);
+    out_.write(files.open(file).stream());
+    files.commit();
   }
 
  private:
@@ -206,7 +206,7 @@ Notes write_exodus(const TetMesh& given, const std::filesystem::path& file, cons
   writer.side_sets(mesh, mesh.face_sets, names_for(mesh.face_sets, rules, {}, notes));
   writer.node_sets(mesh.node_sets, names_for(mesh.node_sets, rules, {}, notes));
   writer.element_sets(sets, names);
-  writer.write(file);
+  writer.write(file, options.together);
   return notes;
 }
 
@@ -222,7 +222,7 @@ Notes write_exodus(const NamedSurface& surface, const std::filesystem::path& fil
                 });
   writer.node_sets(surface.node_sets, names_for(surface.node_sets, rules, {}, notes));
   writer.element_sets(surface.face_sets, names_for(surface.face_sets, rules, {}, notes));
-  writer.write(file);
+  writer.write(file, options.together);
   return notes;
 }
 

@@ -123,7 +123,8 @@ WrittenNames names_in_inp(const TetMesh& mesh, const std::string& prefix, Notes&
 Notes write_inp(const TetMesh& mesh, const std::filesystem::path& file, const FileOptions& options) {
   Notes notes = determinant_notes(mesh, file, options.numbers);
   const WrittenNames names = names_in_inp(mesh, options.set_prefix, notes);
-  OutputFile output(file);
+  OutputFiles files(options.together);
+  OutputFile& output = files.open(file);
   {
     TextOutput out(output.stream());
     write_header(out, mesh.nodes, mesh.unit, options);
@@ -142,7 +143,7 @@ Notes write_inp(const TetMesh& mesh, const std::filesystem::path& file, const Fi
     for (std::size_t s = 0; s < mesh.face_sets.size(); ++s)
       write_surface_set(out, mesh, names.faces[s], mesh.face_sets[s].members, options.numbers);
   }
-  output.commit();
+  files.commit();
   return notes;
 }
 
@@ -152,7 +153,8 @@ Notes write_inp(const NamedSurface& surface, const std::filesystem::path& file, 
       names_for(surface.face_sets, rules, taken_with_prefix(options.set_prefix), notes);
   const std::vector<std::string> nodes =
       names_for(surface.node_sets, rules, taken_with_prefix(options.set_prefix), notes);
-  OutputFile output(file);
+  OutputFiles files(options.together);
+  OutputFile& output = files.open(file);
   {
     TextOutput out(output.stream());
     write_header(out, surface.mesh.vertices, surface.unit, options);
@@ -166,7 +168,7 @@ Notes write_inp(const NamedSurface& surface, const std::filesystem::path& file, 
     write_sets(out, "*ELSET, ELSET=", surface.face_sets, elements, options.numbers, &Numbering::element);
     write_sets(out, "*NSET, NSET=", surface.node_sets, nodes, options.numbers, &Numbering::node);
   }
-  output.commit();
+  files.commit();
   return notes;
 }
 

@@ -62,9 +62,10 @@ int number(std::uint32_t node) {
   return static_cast<int>(node) + 1;
 }
 
-void write(const MedMesh& mesh, const std::filesystem::path& file) {
+void write(const MedMesh& mesh, const std::filesystem::path& file, OutputFiles* together) {
   auto* const write_by_med = reinterpret_cast<WriteByMed*>(load(write_by_med_name));
-  OutputFile output(file);
+  OutputFiles files(together);
+  OutputFile& output = files.open(file);
   std::string bytes, failure;
   {
     const std::lock_guard lock(one_at_a_time);
@@ -72,7 +73,7 @@ void write(const MedMesh& mesh, const std::filesystem::path& file) {
   }
   if (!failure.empty()) throw IoError({"the MED library cannot write the file", file.string(), failure, {}, {}});
   output.stream().write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  output.commit();
+  files.commit();
 }
 
 void add_sets(const MedFamilies& families, const std::vector<std::uint64_t>& numbers, std::vector<RawSet>& sets) {
@@ -143,7 +144,7 @@ Notes write_med(const TetMesh& given, const std::filesystem::path& file, const F
     if (second)
       for (const std::uint32_t n : boundary_mid_edge_nodes(mesh, f)) triangles.nodes.push_back(number(n));
   }
-  write(med, file);
+  write(med, file, options.together);
   return notes;
 }
 
@@ -161,7 +162,7 @@ Notes write_med(const NamedSurface& surface, const std::filesystem::path& file, 
   triangles.families = families_of(surface.face_sets, surface.mesh.triangles.size(), notes);
   for (const Triangle& t : surface.mesh.triangles)
     for (const std::uint32_t n : t) triangles.nodes.push_back(number(n));
-  write(med, file);
+  write(med, file, options.together);
   return notes;
 }
 

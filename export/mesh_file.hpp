@@ -11,6 +11,8 @@
 
 namespace scan2fea {
 
+class OutputFiles;
+
 // Of nodes and elements in the order of a mesh.
 struct FileNumbers {
   std::vector<std::uint64_t> nodes, elements;
@@ -70,6 +72,7 @@ struct FileOptions {
   bool ascii = false;                                        // STL and PLY, which are binary otherwise
   std::string set_prefix = {};  // before the names of all sets, also of NALL, EALL and SALL
   Numbering numbers = {};
+  OutputFiles* together = nullptr;  // with which the files are put in place; without them, at once
 };
 
 // What the user should know of a file that was written all the same; each entry is one line.

@@ -298,7 +298,8 @@ class Writer {
 
 void write(const std::vector<Vec3>& nodes, std::vector<Group> groups, const std::string& unit,
            const std::filesystem::path& file, const FileOptions& options) {
-  OutputFile output(file);
+  OutputFiles files(options.together);
+  OutputFile& output = files.open(file);
   {
     TextOutput out(output.stream());
     Writer writer(out, nodes, std::move(groups), options.numbers);
@@ -308,7 +309,7 @@ void write(const std::vector<Vec3>& nodes, std::vector<Group> groups, const std:
     else
       writer.write_2();
   }
-  output.commit();
+  files.commit();
 }
 
 }  // namespace

@@ -15,7 +15,8 @@ Notes write_su2(const TetMesh& mesh, const std::filesystem::path& file, const Fi
   const SetParts parts = set_parts(mesh.face_sets, mesh.boundary.size());
   std::vector<std::vector<std::uint32_t>> markers(parts.of.size());
   for (std::uint32_t f = 0; f < mesh.boundary.size(); ++f) markers[parts.part[f]].push_back(f);
-  OutputFile output(file);
+  OutputFiles files(options.together);
+  OutputFile& output = files.open(file);
   {
     TextOutput out(output.stream());
     out << "% written by scan2fea\n";
@@ -44,7 +45,7 @@ Notes write_su2(const TetMesh& mesh, const std::filesystem::path& file, const Fi
       }
     }
   }
-  output.commit();
+  files.commit();
   return notes;
 }
 

@@ -152,7 +152,8 @@ Notes write_unv(const TetMesh& given, const std::filesystem::path& file, const F
   std::vector<std::uint64_t> triangle_number(mesh.boundary.size(), 0);
   for (const NamedSet& set : mesh.face_sets)
     for (const std::uint32_t f : set.members) triangle_number[f] = 1;
-  OutputFile output(file);
+  OutputFiles files(options.together);
+  OutputFile& output = files.open(file);
   {
     TextOutput out(output.stream());
     write_units(out, mesh.unit);
@@ -181,7 +182,7 @@ Notes write_unv(const TetMesh& given, const std::filesystem::path& file, const F
     write_node_groups(groups, mesh.node_sets, of_nodes, numbers);
     end(out);
   }
-  output.commit();
+  files.commit();
   return notes;
 }
 
@@ -191,7 +192,8 @@ Notes write_unv(const NamedSurface& surface, const std::filesystem::path& file, 
   std::vector<NamedSet> sets = surface.face_sets;
   sets.insert(sets.end(), surface.node_sets.begin(), surface.node_sets.end());
   const std::vector<std::string> names = names_for(sets, surface_rules(), {}, notes);
-  OutputFile output(file);
+  OutputFiles files(options.together);
+  OutputFile& output = files.open(file);
   {
     TextOutput out(output.stream());
     write_units(out, surface.unit);
@@ -208,7 +210,7 @@ Notes write_unv(const NamedSurface& surface, const std::filesystem::path& file, 
     write_node_groups(groups, surface.node_sets, std::span(names).subspan(surface.face_sets.size()), numbers);
     end(out);
   }
-  output.commit();
+  files.commit();
   return notes;
 }
 

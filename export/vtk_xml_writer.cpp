@@ -125,7 +125,8 @@ void write_comment(TextOutput& out, std::string_view text) {
 // `counts`: the attributes of the piece.
 void write(const std::string& type, const std::string& counts, const std::vector<Section>& sections,
            const std::string& unit, const std::filesystem::path& file, const FileOptions& options) {
-  OutputFile output(file);
+  OutputFiles files(options.together);
+  OutputFile& output = files.open(file);
   {
     TextOutput out(output.stream());
     out << "<?xml version=\"1.0\"?>\n";
@@ -158,7 +159,7 @@ void write(const std::string& type, const std::string& counts, const std::vector
       output.stream().write(array.bytes.data(), static_cast<std::streamsize>(bytes));
     }
   output.stream() << "\n</AppendedData>\n</VTKFile>\n";
-  output.commit();
+  files.commit();
 }
 
 std::string count(const char* attribute, std::size_t value) {

@@ -116,9 +116,9 @@ Notes write_xdmf(const TetMesh& mesh, const std::filesystem::path& file, const F
   const SetParts facet_parts = set_parts(mesh.face_sets, mesh.boundary.size());
   std::filesystem::path facets_file = file;
   facets_file.replace_filename(file.stem().string() + "_facets" + file.extension().string());
-  OutputFile output(file), facets_output(facets_file);
+  OutputFiles files(options.together);
   {
-    TextOutput out(output.stream()), facets(facets_output.stream());
+    TextOutput facets(files.open(facets_file).stream()), out(files.open(file).stream());
     begin(out, "Grid", mesh, options);
     write_names(out, cell_parts, elements, 3);
     write_tetrahedra(out, mesh);
@@ -142,10 +142,7 @@ Notes write_xdmf(const TetMesh& mesh, const std::filesystem::path& file, const F
                     [&](std::size_t f) { return facet_parts.part[f]; });
     end(facets);
   }
-  output.finish();
-  facets_output.finish();
-  facets_output.commit();
-  output.commit();
+  files.commit();
   return notes;
 }
 

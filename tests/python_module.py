@@ -36,7 +36,7 @@ def by_command(command, *arguments):
 
 # Without what differs from one run to the next: who called, what is written, how long it took.
 def comparable(figures):
-    kept = {name: value for name, value in figures.items() if name not in ("command", "output")}
+    kept = {name: value for name, value in figures.items() if name not in ("command", "outputs")}
     kept["stages"] = [{name: value for name, value in stage.items() if name not in ("seconds", "peak_bytes")}
                       for stage in figures.get("stages", [])]
     return json.dumps(kept, sort_keys=True)

@@ -79,7 +79,7 @@ int check(CheckFlags flags) {
   compare_with(reference, subject);
   subject.inputs = read_files(flags);
   subject.first_element = first_element;
-  StagedOutputs outputs;
+  OutputFiles outputs;
   if (flags.leaks) {
     const std::vector<Opening> openings = find_openings(mesh.surface);
     tell_leaks(openings, display);

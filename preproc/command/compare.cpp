@@ -59,7 +59,7 @@ int compare(CompareFlags flags) {
   subject.compared = {{"first", column(first, flags.common.input, flags, scan)},
                       {"second", column(second, flags.second, flags, scan)}};
   flags.common.input = flags.second;
-  StagedOutputs outputs;
+  OutputFiles outputs;
   const bool all_pass = report_figures(subject, flags.common, gates, display, outputs);
   outputs.commit();
   display.finish();

@@ -155,6 +155,7 @@ int convert(ConvertFlags flags) {
                           .measured_vertices = given != nullptr ? given->measured_vertices : std::nullopt};
   settle_unit(read, flags, display);
   name_sets_again(read, flags);
+  OutputFiles outputs;
   FileOptions options{
       .provenance = given != nullptr && !given->provenance.empty() ? given->provenance : name_of_input(flags.input),
       .msh_version = flags.msh_version,
@@ -162,7 +163,8 @@ int convert(ConvertFlags flags) {
       .node_fields = {},
       .ascii = flags.ascii,
       .set_prefix = flags.numbering.set_prefix,
-      .numbers = flags.numbering.numbers};
+      .numbers = flags.numbering.numbers,
+      .together = &outputs};
   tell(keep_numbers(read, flags.output, options));
   if (const auto* surface = std::get_if<NamedSurface>(&read.mesh)) {
     if (!writes_surface(flags.output))
@@ -173,13 +175,11 @@ int convert(ConvertFlags flags) {
                         .advice = "scan2fea tetrahedralize, or scan2fea run"});
     tell(write_mesh(*surface, flags.output, from, options));
   } else if (const auto& mesh = std::get<TetMesh>(read.mesh); writes_volume(flags.output)) {
-    StagedOutputs deck;
     if (flags.deck) {
       require_deck(mesh, flags);
-      deck.add(files.back().file, deck_text(mesh, flags.output, *flags.deck, options));
+      outputs.add(files.back().file, deck_text(mesh, flags.output, *flags.deck, options));
     }
     tell(write_mesh(mesh, flags.output, from, options));
-    deck.commit();
   } else {
     display.line("the boundary was written; " + flags.output.string() + " holds no tetrahedra");
     Notes notes;
@@ -187,6 +187,7 @@ int convert(ConvertFlags flags) {
     tell(notes);
     tell(write_mesh(boundary, flags.output, from, options));
   }
+  outputs.commit();
   piped.send();
   display.finish();
   return 0;

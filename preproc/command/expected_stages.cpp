@@ -74,11 +74,11 @@ std::vector<ExpectedStage> expected_stages(const MakeMeshJob& job, const Expecte
   if (job.pipeline.tetrahedralize) stages.push_back({"tetrahedralize", fill_tetrahedron * tetrahedra});
   if (job.pipeline.tetrahedralize && job.pipeline.order == 2)
     stages.push_back({"second order", curve_tetrahedron * tetrahedra});
+  stages.push_back({"write", write_tetrahedron * tetrahedra});
   const double a_triangle = measure_triangle + (job.common.json || job.common.report ? elements_triangle : 0);
   stages.push_back({"measure", measure_scan_triangle * work.scan_triangles + a_triangle * triangles});
   if (job.common.report)
     stages.push_back({"report", report_alone + report_triangle * (work.scan_triangles + triangles)});
-  stages.push_back({"write", write_tetrahedron * tetrahedra});
   return stages;
 }
 

@@ -127,12 +127,12 @@ bool is_face_file(const std::filesystem::path& file) {
 }
 
 Notes write_face_file(const NamedSurface& surface, const SurfaceFaces& faces, const std::filesystem::path& file,
-                      StagedOutputs& outputs) {
+                      OutputFiles& outputs) {
   if (file.extension() == ".ply") {
     outputs.add(file, ply(surface.mesh, faces));
     return {};
   }
-  FileOptions options;
+  FileOptions options{.together = &outputs};
   add_quality_fields(surface, nullptr, options);
   return write_surface(surface, file, options);
 }

@@ -23,6 +23,6 @@ bool is_face_file(const std::filesystem::path& file);
 // The surface, whose sets are the faces, with the number of each triangle's face (FACE_3: 3): as .ply (a property
 // `face`, and a colour), .vtp or .vtu (cell data `face`); by the extension.
 Notes write_face_file(const NamedSurface& surface, const SurfaceFaces& faces, const std::filesystem::path& file,
-                      StagedOutputs& outputs);
+                      OutputFiles& outputs);
 
 }  // namespace scan2fea::command

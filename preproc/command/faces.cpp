@@ -91,7 +91,7 @@ int list_faces(FacesFlags flags) {
   display.begin("faces");
   const SurfaceFaces faces = find_faces(mesh, flags.simplify.features, display.progress());
 
-  StagedOutputs outputs;
+  OutputFiles outputs;
   std::string table = face_table(faces);
   for (const Json& set : given) {
     char line[160];

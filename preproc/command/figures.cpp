@@ -166,7 +166,6 @@ void add_origin(const Subject& subject, const CommonFlags& flags, Json& report) 
   report["program"] = program_json();
   report["command"] = command_json(flags.caller != nullptr ? flags.caller->arguments : arguments_of_process());
   report["inputs"] = inputs_json(subject.inputs);
-  if (subject.output) report["output"] = subject.output->string();
   if (subject.surface != nullptr) report["size"] = extent_of(subject.surface->vertices);
   if (subject.reference == nullptr) return;
   report["reference"] = extent_of(subject.reference->vertices);
@@ -235,7 +234,7 @@ Json measure(const Subject& subject, const CommonFlags& flags) {
 }
 
 std::vector<GateResult> finish_report(Json& report, const Subject& subject, const CommonFlags& flags,
-                                      const std::vector<Gate>& gates, StagedOutputs& outputs) {
+                                      const std::vector<Gate>& gates, OutputFiles& outputs) {
   const bool wants_all = flags.json || flags.report || flags.caller != nullptr;
   if (wants_all || has_gate_on(gates, {"inputs", "size", "reference"})) add_origin(subject, flags, report);
   ElementFigures elements;
@@ -244,15 +243,16 @@ std::vector<GateResult> finish_report(Json& report, const Subject& subject, cons
     add_to_json(elements, subject, report);
   }
   std::vector<GateResult> results = judge(gates, subject, report);
-  if (flags.json) outputs.add_json(report, *flags.json);
-  if (flags.junit) outputs.add_junit(junit_text(report, subject.output.value_or(flags.input).string()), *flags.junit);
-  if (flags.report) outputs.add_report(report, page_of(report, elements, subject), flags);
+  if (wants_all && !subject.written.empty()) report["outputs"] = outputs_json(subject.written, all_pass(results));
+  if (flags.json) add_json(report, *flags.json, outputs);
+  if (flags.junit) add_text(junit_text(report, subject.output.value_or(flags.input).string()), *flags.junit, outputs);
+  if (flags.report) add_report(report, page_of(report, elements, subject), flags, outputs);
   if (flags.caller != nullptr) flags.caller->figures = report;
   return results;
 }
 
 bool report_figures(const Subject& subject, const CommonFlags& flags, const std::vector<Gate>& gates,
-                    ProgressDisplay& display, StagedOutputs& outputs) {
+                    ProgressDisplay& display, OutputFiles& outputs) {
   display.begin("measure");
   Json report = measure(subject, flags);
   if (flags.report) display.begin("report");

@@ -32,10 +32,11 @@ struct Subject {
   const std::vector<MadeTouch>* touches = nullptr;
   const std::vector<NamedSet>* face_sets = nullptr;  // of the surface; a volume mesh has its own
   std::vector<ReadFile> inputs = {};
-  std::optional<std::filesystem::path> output = {};
-  std::uint64_t first_element = 1;                  // the number of the first one in the file
-  std::vector<std::uint32_t> element_numbers = {};  // where those of the file are no row from the first on
-  Json compared = {};                               // of `compare`, both meshes' figures
+  std::optional<std::filesystem::path> output = {};  // the mesh
+  std::vector<WrittenFile> written = {};             // it, in all of its files, and what goes with it
+  std::uint64_t first_element = 1;                   // the number of the first one in the file
+  std::vector<std::uint32_t> element_numbers = {};   // where those of the file are no row from the first on
+  Json compared = {};                                // of `compare`, both meshes' figures
 };
 
 // All figures but those of single elements, without gates.
@@ -43,12 +44,12 @@ Json measure(const Subject& subject, const CommonFlags& flags);
 
 // Returns whether all gates pass. Stages --json, --junit and --report; says which gates failed.
 bool report_figures(const Subject& subject, const CommonFlags& flags, const std::vector<Gate>& gates,
-                    ProgressDisplay& display, StagedOutputs& outputs);
+                    ProgressDisplay& display, OutputFiles& outputs);
 
 // Of figures that were measured: adds what they do not say, where they come from and which elements are worst, as far
 // as the gates or a file ask for it, evaluates the gates, and stages --json, --junit and --report.
 std::vector<GateResult> finish_report(Json& report, const Subject& subject, const CommonFlags& flags,
-                                      const std::vector<Gate>& gates, StagedOutputs& outputs);
+                                      const std::vector<Gate>& gates, OutputFiles& outputs);
 
 // "scan.ply: 48485 vertices, 96966 triangles, 12.3 x 4.5 x 6.7 mm": a wrong unit is the commonest mistake.
 std::string describe_input(const SurfaceMesh& mesh, const CommonFlags& flags);

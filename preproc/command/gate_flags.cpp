@@ -28,8 +28,8 @@ void list_gates(const CommonFlags& flags) {
     return;
   }
   if (*flags.json != "-") require_writable({{*flags.json}}, {}, flags.force);
-  StagedOutputs outputs;
-  outputs.add_json(gate_list_json(), *flags.json);
+  OutputFiles outputs;
+  add_json(gate_list_json(), *flags.json, outputs);
   outputs.commit();
 }
 

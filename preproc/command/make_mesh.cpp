@@ -289,8 +289,10 @@ Subject subject_of(const PipelineResult& result, const SurfaceMesh& boundary, co
           .element_numbers = {}};
 }
 
-void write_all(PipelineResult& result, const MakeMeshJob& job, ProgressDisplay& display, StagedOutputs& outputs) {
-  const FileOptions options = file_options(job);
+// All that goes with the mesh; not in place before the gates have passed.
+void write_all(PipelineResult& result, const MakeMeshJob& job, ProgressDisplay& display, OutputFiles& outputs) {
+  FileOptions options = file_options(job);
+  options.together = &outputs;
   if (job.deck) {
     const std::filesystem::path file = deck_file(job.output, *job.deck);
     outputs.add(file, deck_text(*result.volume_mesh, job.output, *job.deck, options));
@@ -299,6 +301,20 @@ void write_all(PipelineResult& result, const MakeMeshJob& job, ProgressDisplay& 
   if (job.features.write) outputs.add(*job.features.write, text_of(result.features));
   for (const std::string& note : write_result(result, options, job))
     if (!job.common.quiet) warn(note);
+}
+
+std::vector<WrittenFile> written_files(const OutputFiles& outputs, const MakeMeshJob& job) {
+  std::vector<WrittenFile> files;
+  for (const OutputFile& file : outputs) {
+    const bool is_deck = job.deck && file.target() == deck_file(job.output, *job.deck);
+    const bool is_lines = job.features.write && file.target() == *job.features.write;
+    files.push_back({.role = is_deck    ? "deck"
+                             : is_lines ? "feature edges"
+                                        : "mesh",
+                     .path = job.common.stdout_is_data && !is_lines ? "-" : file.target(),
+                     .readable = file.readable_path()});
+  }
+  return files;
 }
 
 }  // namespace
@@ -347,19 +363,22 @@ int make_mesh(MakeMeshJob job) {
   for (const WeakPlace& place : result.weak_places)
     warn(shown_name(job.common.input) + ": " + place.describe() + "; a solver may refuse it");
 
-  StagedOutputs outputs;
-  if (!job.common.quiet || job.common.json || job.common.report || !gates.empty()) {
-    // As `check` will find it in the file.
-    const SurfaceMesh boundary = result.volume_mesh ? boundary_surface(*result.volume_mesh) : SurfaceMesh{};
-    if (!report_figures(subject_of(result, boundary, scan, job), job.common, gates, display, outputs)) {
-      outputs.commit();
-      return 1;
-    }
-  }
+  OutputFiles outputs, figures;
   if (result.volume_mesh) result.volume_mesh->unit = job.common.unit.value_or("");
   display.begin("write");
   if (writes(job)) write_all(result, job, display, outputs);
+  if (!job.common.quiet || job.common.json || job.common.report || !gates.empty()) {
+    // As `check` will find it in the file.
+    const SurfaceMesh boundary = result.volume_mesh ? boundary_surface(*result.volume_mesh) : SurfaceMesh{};
+    Subject subject = subject_of(result, boundary, scan, job);
+    subject.written = written_files(outputs, job);
+    if (!report_figures(subject, job.common, gates, display, figures)) {
+      figures.commit();
+      return 1;
+    }
+  }
   outputs.commit();
+  figures.commit();
   piped.send();
   if (job.common.caller == nullptr) ends_by_itself_now();
   display.finish();

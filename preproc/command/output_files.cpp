@@ -99,35 +99,22 @@ void require_writable(const std::vector<OutputPath>& outputs, const std::vector<
   for (const OutputPath& output : outputs) require_possible(output, force);
 }
 
-void StagedOutputs::add(const fs::path& file, const std::string& text, OutputFile::Folder folder) {
-  files_.push_back(std::make_unique<OutputFile>(file, folder));
-  files_.back()->stream() << text;
-  files_.back()->finish();
-}
-
-void StagedOutputs::add_json(const nlohmann::json& report, const fs::path& file) {
-  if (file == "-")
-    write_to_stdout(text_of(report));
-  else
-    add(file, text_of(report));
-}
-
-void StagedOutputs::add_junit(const std::string& text, const fs::path& file) {
+void add_text(const std::string& text, const fs::path& file, OutputFiles& outputs) {
   if (file == "-")
     write_to_stdout(text);
   else
-    add(file, text);
+    outputs.add(file, text);
 }
 
-void StagedOutputs::add_report(const nlohmann::json& report, const std::string& page, const CommonFlags& flags) {
+void add_json(const nlohmann::json& report, const fs::path& file, OutputFiles& outputs) {
+  add_text(text_of(report), file, outputs);
+}
+
+void add_report(const nlohmann::json& report, const std::string& page, const CommonFlags& flags, OutputFiles& outputs) {
   const fs::path& folder = *flags.report;
-  add(folder / report_json, text_of(report), OutputFile::Folder::is_made);
-  add(folder / report_page, page, OutputFile::Folder::is_made);
-  if (flags.report_pdf) add(folder / report_pdf, printed_as_pdf(page), OutputFile::Folder::is_made);
-}
-
-void StagedOutputs::commit() {
-  for (const auto& file : files_) file->commit();
+  outputs.add(folder / report_json, text_of(report), OutputFile::Folder::is_made);
+  outputs.add(folder / report_page, page, OutputFile::Folder::is_made);
+  if (flags.report_pdf) outputs.add(folder / report_pdf, printed_as_pdf(page), OutputFile::Folder::is_made);
 }
 
 }  // namespace scan2fea::command

@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -30,20 +29,10 @@ std::vector<OutputPath> report_outputs(const CommonFlags& flags);
 void require_writable(const std::vector<OutputPath>& outputs, const std::vector<std::filesystem::path>& inputs,
                       bool force);
 
-// Texts that are written, so that a full disk is known of, but not in place before `commit`.
-class StagedOutputs {
- public:
-  void add(const std::filesystem::path& file, const std::string& text,
-           OutputFile::Folder folder = OutputFile::Folder::exists);
-  // Both to stdout, at once, where the file is "-".
-  void add_json(const nlohmann::json& report, const std::filesystem::path& file);
-  void add_junit(const std::string& text, const std::filesystem::path& file);
-  // Into the folder that --report names, which is made where it is missing.
-  void add_report(const nlohmann::json& report, const std::string& page, const CommonFlags& flags);
-  void commit();
-
- private:
-  std::vector<std::unique_ptr<OutputFile>> files_;
-};
+// To stdout, at once, where the file is "-".
+void add_text(const std::string& text, const std::filesystem::path& file, OutputFiles& outputs);
+void add_json(const nlohmann::json& report, const std::filesystem::path& file, OutputFiles& outputs);
+// Into the folder that --report names, which is made where it is missing.
+void add_report(const nlohmann::json& report, const std::string& page, const CommonFlags& flags, OutputFiles& outputs);
 
 }  // namespace scan2fea::command

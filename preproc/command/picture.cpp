@@ -182,7 +182,7 @@ int picture(const PictureFlags& flags) {
       mesh.volume_mesh ? measure_elements(*mesh.volume_mesh, scan) : measure_elements(mesh.surface, scan);
   const ElementColours colours = colours_of(mesh, measures, unit, flags);
   const Raster raster = with_legend(drawn(mesh, measures.faces, colours, flags), colours.legend);
-  StagedOutputs outputs;
+  OutputFiles outputs;
   outputs.add(flags.output, png(raster.width, raster.height, raster.rgba));
   outputs.commit();
   display.line(flags.output.string() + ": " + std::to_string(raster.width) + " x " + std::to_string(raster.height) +

@@ -41,6 +41,18 @@ Hashed hash_of(std::istream& stream) {
   return hashed;
 }
 
+Json entry(const std::string& role, const std::filesystem::path& file, const std::filesystem::path& readable) {
+  Json entry{{"role", role}, {"file", file.string()}, {"bytes", nullptr}, {"sha256", nullptr}};
+  std::ifstream stream;
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(readable, ignored)) stream.open(readable, std::ios::binary);
+  if (!stream.is_open()) return entry;
+  const Hashed hashed = hash_of(stream);
+  entry["bytes"] = hashed.bytes;
+  entry["sha256"] = hashed.sha256;
+  return entry;
+}
+
 }  // namespace
 
 Json program_json() {
@@ -71,17 +83,15 @@ Json command_json(const std::vector<std::string>& arguments) {
 
 Json inputs_json(const std::vector<ReadFile>& files) {
   Json list = Json::array();
-  for (const ReadFile& file : files) {
-    Json entry{{"role", file.role}, {"file", file.path.string()}, {"bytes", nullptr}, {"sha256", nullptr}};
-    std::ifstream stream;
-    const std::filesystem::path path = file_to_read(file.path);
-    if (std::filesystem::is_regular_file(path)) stream.open(path, std::ios::binary);
-    if (stream.is_open()) {
-      const Hashed hashed = hash_of(stream);
-      entry["bytes"] = hashed.bytes;
-      entry["sha256"] = hashed.sha256;
-    }
-    list.push_back(std::move(entry));
+  for (const ReadFile& file : files) list.push_back(entry(file.role, file.path, file_to_read(file.path)));
+  return list;
+}
+
+Json outputs_json(const std::vector<WrittenFile>& files, bool are_written) {
+  Json list = Json::array();
+  for (const WrittenFile& file : files) {
+    list.push_back(entry(file.role, file.path, are_written ? file.readable : std::filesystem::path()));
+    list.back()["written"] = are_written;
   }
   return list;
 }

@@ -26,4 +26,14 @@ Json command_json(const std::vector<std::string>& arguments);
 // [{role, file, bytes, sha256}]; null where a file is no longer to be read, a pipe say.
 Json inputs_json(const std::vector<ReadFile>& files);
 
+// Of a file that was written, whether it is in place or not.
+struct WrittenFile {
+  std::string role;                // "mesh", "deck", "feature edges"
+  std::filesystem::path path;      // as the user knows it; "-" for stdout
+  std::filesystem::path readable;  // by which this process finds it
+};
+
+// [{role, file, bytes, sha256, written}]; null and false where a gate keeps it from its place.
+Json outputs_json(const std::vector<WrittenFile>& files, bool are_written);
+
 }  // namespace scan2fea::command

@@ -35,7 +35,11 @@ Notes write_mesh(const NamedSurface& surface, const std::filesystem::path& file,
                  FileOptions options) {
   if (from.measured_vertices && is_surface_file(file)) {
     write_surface(surface.mesh, file,
-                  {.measured = from.measured_vertices, .unit = surface.unit, .face_sets = {}, .ascii = options.ascii});
+                  {.measured = from.measured_vertices,
+                   .unit = surface.unit,
+                   .face_sets = {},
+                   .ascii = options.ascii,
+                   .together = options.together});
     return {};
   }
   const FileFormat* format = find_format(file);

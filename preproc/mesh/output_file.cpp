@@ -158,6 +158,28 @@ void OutputFile::commit() {
   descriptor_ = -1;
 }
 
+fs::path OutputFile::readable_path() const {
+  return temporary_.empty() ? fs::path(path_of(descriptor_)) : temporary_;
+}
+
+OutputFile& OutputFiles::open(const fs::path& target, OutputFile::Folder folder) {
+  return files_.emplace_back(target, folder);
+}
+
+void OutputFiles::add(const fs::path& target, const std::string& text, OutputFile::Folder folder) {
+  OutputFile& file = open(target, folder);
+  file.stream() << text;
+  file.finish();
+}
+
+void OutputFiles::commit() {
+  for (OutputFile& file : files_) file.finish();
+  if (owner_ != nullptr)
+    owner_->files_.splice(owner_->files_.end(), files_);
+  else
+    for (OutputFile& file : files_) file.commit();
+}
+
 void remove_unfinished_outputs() noexcept {
   for (const UnfinishedName& name : unfinished)
     if (name.valid) ::unlink(name.path);

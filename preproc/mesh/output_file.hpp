@@ -3,6 +3,8 @@
 
 #include <filesystem>
 #include <fstream>
+#include <list>
+#include <string>
 
 namespace scan2fea {
 
@@ -27,6 +29,10 @@ class OutputFile {
   // For writers that want a path of their own (the Gmsh SDK): it has the target's extension, in lower case.
   const std::filesystem::path& temporary_path();
 
+  const std::filesystem::path& target() const { return target_; }
+  // By which this process can read what was written, after `finish`.
+  std::filesystem::path readable_path() const;
+
   // Flushes and checks that all was written (IoError on a full disk); done by `commit`, too.
   void finish();
   // The target is the new file.
@@ -40,6 +46,27 @@ class OutputFile {
   int descriptor_;
   std::filesystem::path temporary_;  // empty while the file has no name
   std::ofstream stream_;
+};
+
+// Files that are put in place together, all of them written before the first is: by this `commit` or, where they belong
+// to others, by that of those. So a mesh of several files, or a mesh with its report, is there whole or not at all.
+class OutputFiles {
+ public:
+  explicit OutputFiles(OutputFiles* owner = nullptr) : owner_(owner) {}
+
+  // Throws IoError as OutputFile does. The reference holds as long as these files, or those that they belong to.
+  OutputFile& open(const std::filesystem::path& target, OutputFile::Folder folder = OutputFile::Folder::exists);
+  void add(const std::filesystem::path& target, const std::string& text,
+           OutputFile::Folder folder = OutputFile::Folder::exists);
+  // Throws IoError where one is not whole, before the first is in place.
+  void commit();
+
+  auto begin() const { return files_.begin(); }
+  auto end() const { return files_.end(); }
+
+ private:
+  OutputFiles* owner_;
+  std::list<OutputFile> files_;
 };
 
 // For signal handlers that end the process: takes away what has a name already and was not committed. Not while another

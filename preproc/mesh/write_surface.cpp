@@ -206,11 +206,11 @@ void write_surface(const SurfaceMesh& mesh, const std::filesystem::path& file, c
   if (write == nullptr)
     throw WrongUsage({"the extension of the output names no surface format", file.string(), lower_case_extension(file),
                       std::string(known_surface_formats()), "one of these"});
-  OutputFile output(file);
-  Buffer buffer(output.stream());
+  OutputFiles files(options.together);
+  Buffer buffer(files.open(file).stream());
   write(mesh, options, buffer);
   buffer.flush();
-  output.commit();
+  files.commit();
 }
 
 }  // namespace scan2fea

@@ -12,6 +12,8 @@
 
 namespace scan2fea {
 
+class OutputFiles;
+
 // Whether the extension, upper or lower case, is one of these formats.
 bool is_surface_file(const std::filesystem::path& file);
 
@@ -24,6 +26,7 @@ struct SurfaceFileOptions {
   std::string unit;                     // of length, for a comment; empty: none
   std::vector<NamedSet> face_sets;      // groups of OBJ; names without blanks
   bool ascii = false;                   // STL and PLY as text; Gmsh 4.8 does not read doubles of a binary PLY
+  OutputFiles* together = nullptr;      // with which the file is put in place; without them, at once
 };
 
 // The format is told by the extension (WrongUsage where it is unknown). Numbers round-trip, but for STL, whose format

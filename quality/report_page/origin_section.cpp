@@ -32,26 +32,22 @@ std::string command_lines(const Json& report) {
          "are there.</p>\n";
 }
 
-bool has_failed(const Json& report) {
-  return std::ranges::any_of(report["gates"], [](const Json& gate) { return !gate["pass"].get<bool>(); });
-}
-
-// What came through a pipe, or was in the memory of a program, has none.
-std::string hash_of(const Json& input) {
-  if (input["sha256"].is_null()) return {};
-  return "<code class=\"hash\">" + escaped(input["sha256"].get<std::string>()) + "</code>";
+// What came through a pipe, was in the memory of a program, or was not written, has no hash.
+void add_file(const Json& file, const std::string& what, Table& table) {
+  const Json& hash = file["sha256"];
+  table.row({what, "<code>" + escaped(file["file"].get<std::string>()) + "</code>", number(file["bytes"]),
+             hash.is_null() ? "" : "<code class=\"hash\">" + escaped(hash.get<std::string>()) + "</code>"});
 }
 
 std::string file_table(const Json& report) {
   Table table("Files", {"What", "File", "#Bytes", "SHA-256"});
   if (report.contains("inputs"))
-    for (const Json& input : report["inputs"])
-      table.row({escaped(input["role"].get<std::string>()),
-                 "<code>" + escaped(input["file"].get<std::string>()) + "</code>", number(input["bytes"]),
-                 hash_of(input)});
-  if (report.contains("output"))
-    table.row({has_failed(report) ? "not written, since a gate failed" : "written",
-               "<code>" + escaped(report["output"].get<std::string>()) + "</code>", "", ""});
+    for (const Json& input : report["inputs"]) add_file(input, escaped(input["role"].get<std::string>()), table);
+  if (report.contains("outputs"))
+    for (const Json& output : report["outputs"]) {
+      const std::string role = escaped(output["role"].get<std::string>());
+      add_file(output, role + (output["written"].get<bool>() ? ", written" : ", not written: a gate failed"), table);
+    }
   return table.text();
 }
 
