@@ -138,6 +138,19 @@ TEST(OutputFile, WritesThroughALink) {
   EXPECT_EQ(contents(folder / "real.inp"), "new");
 }
 
+TEST(OutputFile, FilesOfOneOutputArePutInPlaceTogether) {
+  const TemporaryFolder folder;
+  OutputFiles all;
+  OutputFiles of_a_writer(&all);
+  of_a_writer.open(folder / "nodes").stream() << "1";
+  of_a_writer.add(folder / "elements", "2");
+  of_a_writer.commit();
+  EXPECT_FALSE(std::filesystem::exists(folder / "nodes"));
+  EXPECT_EQ(contents(all.begin()->readable_path()), "1");
+  all.commit();
+  EXPECT_EQ(contents(folder / "nodes") + contents(folder / "elements"), "12");
+}
+
 TEST(OutputFile, RefusesAMissingFolder) {
   const TemporaryFolder folder;
   const auto error = error_from<IoError>([&] { OutputFile output(folder / "missing/part.inp"); });

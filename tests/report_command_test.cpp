@@ -18,6 +18,7 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using ::testing::UnorderedElementsAre;
 
 class ReportCommand : public ::testing::Test {
  protected:
@@ -78,6 +79,22 @@ TEST_F(ReportCommand, FilesAreKnownByTheirSha256) {
   EXPECT_EQ(input["sha256"], "697b00ab13410c52a542d2e9c63711fcc04e9cbf6c0d3439a9b43cc812e6e713");  // by sha256sum
 }
 
+TEST_F(ReportCommand, WhatIsWrittenIsKnownByItsSha256) {
+  json outputs = run_ball("part.inp", "--deck static --set 'fixed=z<-5' --set 'loaded=z>5'")["outputs"];
+  for (json& output : run_ball("part.xdmf")["outputs"]) outputs.push_back(std::move(output));  // in two files
+  std::vector<std::string> roles;
+  for (const json& output : outputs) {
+    const std::string file = output["file"];
+    roles.push_back(output["role"]);
+    EXPECT_EQ(output["bytes"], std::filesystem::file_size(file)) << file;
+    EXPECT_EQ(output["written"], true);
+    if (file == path("part.inp") || file == path("part.xdmf")) {
+      EXPECT_EQ(output["sha256"], figures("check '" + file + "'")["inputs"][0]["sha256"]);
+    }
+  }
+  EXPECT_THAT(roles, UnorderedElementsAre("mesh", "deck", "mesh", "mesh"));
+}
+
 TEST_F(ReportCommand, AFailedGateIsInTheReportAndTheMeshIsNot) {
   write_ball("ball.ply");
   const auto result = run_command("surface " + quoted("ball.ply") + " -o " + quoted("out.ply") +
@@ -86,7 +103,7 @@ TEST_F(ReportCommand, AFailedGateIsInTheReportAndTheMeshIsNot) {
   EXPECT_FALSE(std::filesystem::exists(path("out.ply")));
   const std::string page = contents(path("report/report.html"));
   EXPECT_THAT(page, HasSubstr("1 of 1 gates failed"));
-  EXPECT_THAT(page, HasSubstr("not written, since a gate failed"));
+  EXPECT_THAT(page, HasSubstr("mesh, not written: a gate failed"));
 }
 
 TEST_F(ReportCommand, TheJsonOfAReportIsThatOfTheFlag) {

@@ -306,12 +306,12 @@ void write_all(PipelineResult& result, const MakeMeshJob& job, ProgressDisplay& 
 std::vector<WrittenFile> written_files(const OutputFiles& outputs, const MakeMeshJob& job) {
   std::vector<WrittenFile> files;
   for (const OutputFile& file : outputs) {
-    const bool is_deck = job.deck && file.target() == deck_file(job.output, *job.deck);
-    const bool is_lines = job.features.write && file.target() == *job.features.write;
+    const bool is_deck = job.deck && file.name() == deck_file(job.output, *job.deck);
+    const bool is_lines = job.features.write && file.name() == *job.features.write;
     files.push_back({.role = is_deck    ? "deck"
                              : is_lines ? "feature edges"
                                         : "mesh",
-                     .path = job.common.stdout_is_data && !is_lines ? "-" : file.target(),
+                     .path = job.common.stdout_is_data && !is_lines ? "-" : file.name(),
                      .readable = file.readable_path()});
   }
   return files;

@@ -94,7 +94,7 @@ fs::path resolved(fs::path target) {
 
 // The file's permissions are those of any new file, which mkstemp's would not be.
 OutputFile::OutputFile(fs::path target, Folder folder)
-    : target_(resolved(std::move(target))), folder_(folder_of(target_, folder)) {
+    : name_(std::move(target)), target_(resolved(name_)), folder_(folder_of(target_, folder)) {
   constexpr mode_t permissions = 0666;
   descriptor_ = ::open(folder_.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, permissions);
   if (descriptor_ >= 0) {

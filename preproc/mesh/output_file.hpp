@@ -29,7 +29,7 @@ class OutputFile {
   // For writers that want a path of their own (the Gmsh SDK): it has the target's extension, in lower case.
   const std::filesystem::path& temporary_path();
 
-  const std::filesystem::path& target() const { return target_; }
+  const std::filesystem::path& name() const { return name_; }  // as it was given
   // By which this process can read what was written, after `finish`.
   std::filesystem::path readable_path() const;
 
@@ -41,7 +41,8 @@ class OutputFile {
  private:
   void give_name();
 
-  std::filesystem::path target_;
+  std::filesystem::path name_;
+  std::filesystem::path target_;  // that it links to, or itself
   std::filesystem::path folder_;  // in which it lies until then: the target's, or one above
   int descriptor_;
   std::filesystem::path temporary_;  // empty while the file has no name
