@@ -118,7 +118,7 @@ Notes write_xdmf(const TetMesh& mesh, const std::filesystem::path& file, const F
   facets_file.replace_filename(file.stem().string() + "_facets" + file.extension().string());
   OutputFiles files(options.together);
   {
-    TextOutput facets(files.open(facets_file).stream()), out(files.open(file).stream());
+    TextOutput out(files.open(file).stream()), facets(files.open(facets_file).stream());
     begin(out, "Grid", mesh, options);
     write_names(out, cell_parts, elements, 3);
     write_tetrahedra(out, mesh);

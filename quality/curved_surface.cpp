@@ -32,7 +32,15 @@ SixNodeTriangle nodes_of(const FlatPieces& pieces, std::uint32_t curved) {
   return x;
 }
 
-void add_pieces(FlatPieces& pieces, std::uint32_t curved, double tolerance) {
+CurvedTriangle curved_triangle(const TetMesh& mesh, BoundaryFace f) {
+  const auto [a, b, c] = boundary_triangle(mesh, f);
+  const auto [ab, bc, ca] = boundary_mid_edge_nodes(mesh, f);
+  return {{a, b, c, ab, bc, ca}};
+}
+
+void add_pieces(FlatPieces& pieces, const CurvedTriangle& triangle, double tolerance) {
+  const auto curved = static_cast<std::uint32_t>(pieces.curved.size());
+  pieces.curved.push_back(triangle);
   const SixNodeTriangle x = nodes_of(pieces, curved);
   const int n = cuts_for(x, tolerance);
   const auto first = static_cast<std::uint32_t>(pieces.mesh.vertices.size());
@@ -70,24 +78,28 @@ std::vector<BoundaryFace> outer_faces_by_element(const TetMesh& mesh) {
   return faces;
 }
 
-FlatPieces flat_pieces(const TetMesh& mesh, double tolerance, FacesBetween between) {
+SurfaceMesh outer_corner_faces(const TetMesh& mesh) {
+  SurfaceMesh surface{.vertices = mesh.nodes, .triangles = {}};
+  for (std::size_t f = 0; f < mesh.outer_faces(); ++f)
+    surface.triangles.push_back(boundary_triangle(mesh, mesh.boundary[f]));
+  return surface;
+}
+
+FlatPieces flat_pieces(const TetMesh& mesh, std::span<const BoundaryFace> faces, double tolerance) {
   FlatPieces pieces;
   pieces.nodes = mesh.nodes;
-  const auto add = [&](const std::array<std::uint32_t, 6>& nodes) {
-    pieces.curved.push_back({nodes});
-    add_pieces(pieces, static_cast<std::uint32_t>(pieces.curved.size() - 1), tolerance);
-  };
-  for (const BoundaryFace f : outer_faces_by_element(mesh)) {
-    const auto [a, b, c] = boundary_triangle(mesh, f);
-    const auto [ab, bc, ca] = boundary_mid_edge_nodes(mesh, f);
-    add({a, b, c, ab, bc, ca});
-  }
+  for (const BoundaryFace f : faces) add_pieces(pieces, curved_triangle(mesh, f), tolerance);
+  return pieces;
+}
+
+FlatPieces flat_pieces(const TetMesh& mesh, double tolerance, FacesBetween between) {
+  FlatPieces pieces = flat_pieces(mesh, outer_faces_by_element(mesh), tolerance);
   if (between == FacesBetween::left_out) return pieces;
   for (std::size_t i = mesh.outer_faces(); i < mesh.boundary.size(); ++i) {
-    const auto [a, b, c] = boundary_triangle(mesh, mesh.boundary[i]);
-    const auto [ab, bc, ca] = boundary_mid_edge_nodes(mesh, mesh.boundary[i]);
-    add({a, b, c, ab, bc, ca});
-    add({a, c, b, ca, bc, ab});
+    const CurvedTriangle face = curved_triangle(mesh, mesh.boundary[i]);
+    const auto [a, b, c, ab, bc, ca] = face.nodes;
+    add_pieces(pieces, face, tolerance);
+    add_pieces(pieces, {{a, c, b, ca, bc, ab}}, tolerance);
   }
   return pieces;
 }

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace scan2fea {
@@ -32,12 +33,18 @@ struct FlatPieces {
 // that sums over it, and samples of it, are those of the mesh that is read again.
 std::vector<BoundaryFace> outer_faces_by_element(const TetMesh& mesh);
 
+// The same faces by their corners alone, in the order of TetMesh::boundary, with all nodes of the mesh.
+SurfaceMesh outer_corner_faces(const TetMesh& mesh);
+
 // Precondition: the mesh is of second order. No point of a flat triangle is farther than `tolerance`, model units, from
 // the curved one, unless that takes more than `most_cuts` along an edge; nor the other way round. Of the outside, or of
 // all bodies, faces between two of them once for either. O(n + pieces).
 inline constexpr int most_cuts = 16;
 enum class FacesBetween { left_out, of_either };
 FlatPieces flat_pieces(const TetMesh& mesh, double tolerance, FacesBetween between = FacesBetween::left_out);
+
+// The same of any faces of its elements, in this order.
+FlatPieces flat_pieces(const TetMesh& mesh, std::span<const BoundaryFace> faces, double tolerance);
 
 // What is near enough for figures of a deviation: a hundredth of the distance at which meshes are made by default, of
 // the diagonal of what they are compared with.

@@ -52,19 +52,21 @@ void measure_deviations(const Mesh& mesh, const SurfaceMesh& surface, const Surf
 
 }  // namespace
 
-ElementMeasures measure_elements(const SurfaceMesh& mesh, const SurfaceMesh* reference) {
+ElementMeasures measure_elements(const SurfaceMesh& mesh, const SurfaceMesh* reference,
+                                 const std::vector<Vec3>* points) {
   ElementMeasures measures;
   measures.faces = mesh;
   measure_faces(measures);
-  if (reference != nullptr) measure_deviations(mesh, mesh, *reference, measures);
+  if (reference != nullptr)
+    measure_deviations(mesh, mesh, *reference, measures);
+  else if (points != nullptr)
+    measures.deviation = signed_deviations_from_points(*points, mesh);
   return measures;
 }
 
-ElementMeasures measure_elements(const TetMesh& mesh, const SurfaceMesh* reference) {
+ElementMeasures measure_elements(const TetMesh& mesh, const SurfaceMesh* reference, const std::vector<Vec3>* points) {
   ElementMeasures measures;
-  measures.faces.vertices = mesh.nodes;
-  for (std::size_t f = 0; f < mesh.outer_faces(); ++f)
-    measures.faces.triangles.push_back(boundary_triangle(mesh, mesh.boundary[f]));
+  measures.faces = outer_corner_faces(mesh);
   measure_faces(measures);
   measure_volume(mesh, measures);
   if (reference != nullptr && mesh.order() == 2) {
@@ -72,6 +74,8 @@ ElementMeasures measure_elements(const TetMesh& mesh, const SurfaceMesh* referen
     measure_deviations(mesh, flat_pieces(mesh, tolerance).mesh, *reference, measures);
   } else if (reference != nullptr) {
     measure_deviations(mesh, measures.faces, *reference, measures);
+  } else if (points != nullptr) {
+    measures.deviation = signed_deviations_from_points(*points, mesh);
   }
   return measures;
 }

@@ -16,15 +16,19 @@ struct ElementMeasures {
   std::vector<double> face_edge_ratio, face_min_angle_deg, face_max_angle_deg;
   // Per tetrahedron; none of a surface. See TetShape.
   std::vector<double> scaled_jacobian, min_dihedral_deg, max_dihedral_deg, edge_ratio;
-  // Per face, and per triangle of the reference; see signed_deviation.hpp. None without a reference.
+  // Per face, and per triangle of the reference; see signed_deviation.hpp. None without a reference; of one that is
+  // points, none of its own.
   std::vector<double> deviation, deviation_of_reference;
 
   bool is_volume() const { return !scaled_jacobian.empty(); }
 };
 
-// O(n), or O(n log n) with a reference; parallel, the same for any number of threads.
-ElementMeasures measure_elements(const SurfaceMesh& mesh, const SurfaceMesh* reference);
-ElementMeasures measure_elements(const TetMesh& mesh, const SurfaceMesh* reference);
+// `points`: what deviations are from where there is no reference. O(n), or O(n log n) with one of them; parallel, the
+// same for any number of threads.
+ElementMeasures measure_elements(const SurfaceMesh& mesh, const SurfaceMesh* reference,
+                                 const std::vector<Vec3>* points = nullptr);
+ElementMeasures measure_elements(const TetMesh& mesh, const SurfaceMesh* reference,
+                                 const std::vector<Vec3>* points = nullptr);
 
 // Those that there are, in the order in which a report shows them.
 std::vector<MeasuredElements> histograms_of(const ElementMeasures& measures);

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -20,6 +21,42 @@ std::string without_blanks(std::string name) {
   std::ranges::replace(name, ' ', '_');
   return name;
 }
+
+// What people look for first comes first.
+constexpr auto shown = std::to_array<std::string_view>({
+    "deviation.hausdorff_pct_diagonal",
+    "deviation.rms_pct_diagonal",
+    "deviation.from_mesh.hausdorff_pct_diagonal",
+    "deviation.from_reference.hausdorff_pct_diagonal",
+    "deviation.volume_difference_pct",
+    "deviation.area_difference_pct",
+    "points.largest_distance",
+    "points.rms_distance",
+    "surface.edge_ratio.mean",
+    "surface.edge_ratio.p95",
+    "surface.edge_ratio.max",
+    "surface.min_angle_deg.mean",
+    "surface.min_angle_deg.min",
+    "surface.max_angle_deg",
+    "surface.radius_ratio.mean",
+    "surface.self_intersections",
+    "surface.closed",
+    "surface.manifold",
+    "surface.components",
+    "surface.genus",
+    "surface.volume",
+    "surface.area",
+    "volume_mesh.scaled_jacobian.min",
+    "volume_mesh.scaled_jacobian.mean",
+    "volume_mesh.min_dihedral_deg",
+    "volume_mesh.max_dihedral_deg",
+    "volume_mesh.min_face_angle_deg",
+    "volume_mesh.max_face_angle_deg",
+    "volume_mesh.edge_ratio",
+    "volume_mesh.radius_edge_ratio",
+    "volume_mesh.inverted",
+    "volume_mesh.volume",
+});
 
 class Listing {
  public:
@@ -127,6 +164,13 @@ std::vector<NamedFigure> all_figures() {
     const std::string name = std::string("compared.") + mesh + ".FIGURE";
     figures.push_back({name, {}, std::string("Of compare: a figure of the ") + mesh + " mesh", {}, false, "compared"});
   }
+  return figures;
+}
+
+std::vector<NamedFigure> shown_figures() {
+  const std::vector<NamedFigure> all = all_figures();
+  std::vector<NamedFigure> figures;
+  for (const std::string_view name : shown) figures.push_back(*std::ranges::find(all, name, &NamedFigure::name));
   return figures;
 }
 

@@ -19,6 +19,9 @@ struct NamedFigure {
 // In the order of the format.
 std::vector<NamedFigure> all_figures();
 
+// Those that meshes are looked at and compared by, in the order of the tables of a report.
+std::vector<NamedFigure> shown_figures();
+
 // What a report's sections hold, in words; empty where the format does not say.
 std::string meaning_of_section(std::string_view section);
 

@@ -229,6 +229,18 @@ bool is_point(const Json& schema) {
   return &referred(schema) == &report_schema_json()["$defs"]["vector"];
 }
 
+const Json* find_figure(const Json& report, std::string_view name) {
+  const Json* at = &report;
+  while (!name.empty()) {
+    const std::size_t point = name.find('.');
+    const std::string key(name.substr(0, point));
+    if (!at->is_object() || !at->contains(key)) return nullptr;
+    at = &(*at)[key];
+    name = point == std::string_view::npos ? std::string_view{} : name.substr(point + 1);
+  }
+  return at;
+}
+
 std::string description_of(const Json& schema, const char* keyword) {
   return schema.is_object() ? schema.value(keyword, "") : std::string();
 }

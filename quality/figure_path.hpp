@@ -29,6 +29,10 @@ struct FigurePath {
 // without one any will do, and there is no value.
 std::optional<FigurePath> find_figure_path(std::string_view name, const Json* report = nullptr);
 
+// What stands under these keys, whatever it is, without names and numbers of entries; null where the report has
+// nothing.
+const Json* find_figure(const Json& report, std::string_view name);
+
 // What the format says of the figure: an empty text where it does not.
 std::string description_of(const Json& schema, const char* keyword);
 

@@ -1,5 +1,6 @@
 #include "quality/report.hpp"
 
+#include "quality/comparison_table.hpp"
 #include "quality/self_intersections.hpp"
 
 #include <nlohmann/json.hpp>
@@ -133,7 +134,8 @@ std::string deviation_table(const Json& d) {
   table +=
       table_row("Hausdorff distance",
                 text(d["hausdorff_pct_diagonal"]) + " % of the diagonal, at (" + text(d["farthest_point"][0], "%.6g") +
-                    ", " + text(d["farthest_point"][1], "%.6g") + ", " + text(d["farthest_point"][2], "%.6g") + ")");
+                    ", " + text(d["farthest_point"][1], "%.6g") + ", " + text(d["farthest_point"][2], "%.6g") + ")" +
+                    (d.value("farthest_is_on_filling", false) ? ", where a hole was closed" : ""));
   table += table_row("RMS distance", text(d["rms_pct_diagonal"], "%.5f") + " % of the diagonal");
   for (const auto& [name, side] : {std::pair("from the mesh", "from_mesh"), {"from the reference", "from_reference"}})
     table += table_row(name, "Hausdorff " + text(d[side]["hausdorff_pct_diagonal"]) + " %, RMS " +
@@ -207,7 +209,27 @@ Json to_json(const Report& report) {
   return json;
 }
 
+namespace {
+
+std::string gate_rows(const Json& gates) {
+  std::string table = gates.empty() ? "" : "gates\n";
+  for (const Json& gate : gates) table += gate_row(gate);
+  return table;
+}
+
+// Both meshes in columns, and then only what the columns do not say.
+std::string table_of_two(const Json& report) {
+  const Json& compared = report["compared"];
+  std::string table = text(compared["first"]["input"]) + " and " + text(compared["second"]["input"]) + "\n" +
+                      comparison_table(compared);
+  if (report.contains("deviation")) table += "the second from the first: " + deviation_table(report["deviation"]);
+  return table + gate_rows(report["gates"]);
+}
+
+}  // namespace
+
 std::string to_table(const Json& report) {
+  if (report.contains("compared")) return table_of_two(report);
   std::string table = text(report["input"]) + "\n";
   if (report.contains("surface")) table += surface_table(report["surface"]);
   if (report.contains("deviation")) table += deviation_table(report["deviation"]);
@@ -225,9 +247,7 @@ std::string to_table(const Json& report) {
   if (!report["regions"].empty()) table += "regions\n";
   for (const Json& region : report["regions"])
     table += table_row(text(region["name"]), text(region["faces"]) + " faces, area " + text(region["area"], "%.9g"));
-  if (!report["gates"].empty()) table += "gates\n";
-  for (const Json& gate : report["gates"]) table += gate_row(gate);
-  return table;
+  return table + gate_rows(report["gates"]);
 }
 
 }  // namespace scan2fea

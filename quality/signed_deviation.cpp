@@ -1,5 +1,7 @@
 #include "quality/signed_deviation.hpp"
 
+#include "quality/curved_surface.hpp"
+
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -7,7 +9,9 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <optional>
+#include <span>
 
 namespace scan2fea {
 namespace {
@@ -63,6 +67,26 @@ std::vector<double> deviations_along(const std::vector<Vec3>& nodes, const std::
     if (!normals[n].isZero(0)) deviations[n] = distances.from(nodes[n], normals[n]);
   });
   return deviations;
+}
+
+// `face`: per triangle, which of so many faces it is of.
+std::vector<double> means_of_points(const std::vector<Vec3>& points, const SurfaceMesh& mesh,
+                                    std::span<const std::uint32_t> face, std::size_t faces) {
+  const TriangleTree tree(mesh);
+  std::vector<ClosestPoint> nearest(points.size());
+  for_each_near_the_last(points.size(), tree,
+                         [&](std::size_t i, SignedDistances& distances) { nearest[i] = distances.nearest(points[i]); });
+  std::vector<double> means(faces, 0);
+  std::vector<std::size_t> counts(faces, 0);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const ClosestPoint& found = nearest[i];
+    const Vec3 outward = area_vector(mesh, mesh.triangles[found.triangle]);
+    means[face[found.triangle]] +=
+        std::copysign(std::sqrt(found.squared_distance), outward.dot(found.point - points[i]));
+    ++counts[face[found.triangle]];
+  }
+  for (std::size_t f = 0; f < faces; ++f) means[f] /= static_cast<double>(counts[f]);  // 0/0 is NaN
+  return means;
 }
 
 }  // namespace
@@ -124,6 +148,21 @@ std::vector<double> signed_deviations_of_reference(const SurfaceMesh& reference,
   for (const auto& [a, b, c] : reference.triangles)
     deviations.push_back((of_vertices[a] + of_vertices[b] + of_vertices[c]) / 3);
   return deviations;
+}
+
+std::vector<double> signed_deviations_from_points(const std::vector<Vec3>& points, const SurfaceMesh& mesh) {
+  std::vector<std::uint32_t> itself(mesh.triangles.size());
+  std::iota(itself.begin(), itself.end(), 0U);
+  return means_of_points(points, mesh, itself, mesh.triangles.size());
+}
+
+std::vector<double> signed_deviations_from_points(const std::vector<Vec3>& points, const TetMesh& mesh) {
+  const std::span outer(mesh.boundary.data(), mesh.outer_faces());
+  if (mesh.order() == 2) {
+    const FlatPieces flat = flat_pieces(mesh, outer, flat_enough_of_diagonal * bounding_box(points).diagonal());
+    return means_of_points(points, flat.mesh, flat.of_piece, outer.size());
+  }
+  return signed_deviations_from_points(points, outer_corner_faces(mesh));
 }
 
 }  // namespace scan2fea

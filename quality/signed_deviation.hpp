@@ -32,4 +32,9 @@ std::vector<double> signed_deviations_of_nodes(const TetMesh& mesh, const Triang
 std::vector<double> signed_deviations_of_reference(const SurfaceMesh& reference, const SurfaceMesh& mesh,
                                                    const TriangleTree& tree);
 
+// Per triangle of the mesh the mean distance of the measured points for which it is the nearest, with the same meaning
+// of the sign; NaN where there are none, which nobody has measured then. Or per outer boundary face.
+std::vector<double> signed_deviations_from_points(const std::vector<Vec3>& points, const SurfaceMesh& mesh);
+std::vector<double> signed_deviations_from_points(const std::vector<Vec3>& points, const TetMesh& mesh);
+
 }  // namespace scan2fea

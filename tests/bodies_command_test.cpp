@@ -52,6 +52,7 @@ TEST_F(BodiesCommand, FilesAreBodiesNamedByTheirStems) {
   const CommandResult made =
       run("'" + path("top part.stl") + "' -o '" + path("both.inp") + "' --unit mm --json '" + path("both.json") + "'");
   ASSERT_EQ(made.exit_code, 0) << made.standard_error;
+  EXPECT_THAT(made.standard_error, HasSubstr("body 'top part' is named top_part"));
   EXPECT_THAT(made.standard_error, HasSubstr("base and top_part touch: "));
   EXPECT_THAT(made.standard_error, HasSubstr("the largest gap 0, "));
   const TetMesh mesh = read_volume(folder_ / "both.inp");

@@ -103,11 +103,11 @@ TEST_F(CommandLine, ValuesOutOfRangeAreErrorsWithAdvice) {
   for (const std::string wrong :
        {"--faces 0", "--faces -5", "--faces 3", "--faces nan", "--faces 1e99", "--ratio 0", "--ratio nan", "--ratio -1",
         "--edge-length 0", "--edge-length inf", "--edge-length nan", "--deviation 200%", "--deviation nan",
-        "--deviation -1%", "--deviation 0", "--gradation nan", "--gradation 2", "--grading 0", "--interior-size -1x",
-        "--interior-size nanx", "--max-volume 0", "--elements-across 0", "--order 3", "--threads -1", "--time-limit 0",
-        "--largest-hole 200%", "--largest-hole 35", "--feature-angle 190", "--report ''", "--report -",
-        "--feature-angle nan", "--size-box 0 0 0 1 1 1 -1", "--size-box 0 0 0 1 1 1 nan", "--size-ball 0 0 0 -1 1",
-        "--first-node 0",
+        "--deviation 1e-9%", "--deviation -1%", "--deviation 0", "--gradation nan", "--gradation 2", "--grading 0",
+        "--interior-size -1x", "--interior-size nanx", "--max-volume 0", "--elements-across 0", "--order 3",
+        "--threads -1", "--time-limit 0", "--largest-hole 200%", "--largest-hole 35", "--feature-angle 190",
+        "--report ''", "--report -", "--feature-angle nan", "--size-box 0 0 0 1 1 1 -1", "--size-box 0 0 0 1 1 1 nan",
+        "--size-ball 0 0 0 -1 1", "--first-node 0",
         // Of a sphere of diameter 20, so that nothing in it is as long.
         "--edge-length 50", "--deviation 20", "--interior-size 50", "--thickness 50", "--size-ball 10 0 0 3 100",
         "--size-box 500 0 0 600 1 1 0.5", "--enrich --sampling-radius 100"}) {

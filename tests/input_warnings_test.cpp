@@ -47,5 +47,16 @@ TEST_F(InputWarnings, DoubtAnImplausibleSize) {
   EXPECT_THAT(said_of(bracket), Not(HasSubstr("right?"))) << "any size is plausible in some unit";
 }
 
+TEST_F(InputWarnings, OptionsThatDoNotCountAreTold) {
+  const SurfaceMesh scan = analytic::sphere(10, 4);
+  const std::string input = (folder_ / "scan.ply").string(), output = (folder_ / "out.ply").string();
+  write_surface(scan, input);
+  const std::string surface = "surface '" + input + "' -o '" + output + "' --force --faces 500 ";
+  const std::string told = run_command(surface + "--scanner 0 0 90 --domain 'z<3'").standard_error;
+  EXPECT_THAT(told, HasSubstr("not used, since the input is a surface: --scanner\n"));
+  EXPECT_THAT(told, HasSubstr("not used, since there is no --enrich: --domain\n"));
+  EXPECT_THAT(run_command(surface + "--enrich --domain 'z<3'").standard_error, Not(HasSubstr("not used")));
+}
+
 }  // namespace
 }  // namespace scan2fea

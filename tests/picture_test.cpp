@@ -70,15 +70,17 @@ TEST(SeenFaces, EncloseTheElementsThatStay) {
         if (cut.keeps((x[a] + x[b] + x[c] + x[d]) / 4)) volume += (x[b] - x[a]).cross(x[c] - x[a]).dot(x[d] - x[a]) / 6;
       }
       const SeenFaces seen = seen_faces(mesh, cut);
-      EXPECT_NEAR(enclosed_volume(seen.mesh), volume, 1e-12) << offset;
-      for (std::size_t i = 0; i < seen.tetrahedron.size(); ++i) {
+      SurfaceMesh surface{.vertices = mesh.nodes, .triangles = {}};
+      for (const BoundaryFace f : seen.faces) surface.triangles.push_back(boundary_triangle(mesh, f));
+      EXPECT_NEAR(enclosed_volume(surface), volume, 1e-12) << offset;
+      for (std::size_t i = 0; i < seen.faces.size(); ++i) {
         if (seen.boundary_face[i] == SeenFaces::inside) continue;
         const BoundaryFace face = mesh.boundary[seen.boundary_face[i]];
-        EXPECT_EQ(face.tetrahedron, seen.tetrahedron[i]);
-        EXPECT_EQ(boundary_triangle(mesh, face), seen.mesh.triangles[i]);
+        EXPECT_EQ(face.tetrahedron, seen.faces[i].tetrahedron);
+        EXPECT_EQ(boundary_triangle(mesh, face), surface.triangles[i]);
       }
     }
-    EXPECT_EQ(seen_faces(mesh, {.normal = {1, 0, 0}, .offset = 9}).mesh.triangles.size(), mesh.boundary.size());
+    EXPECT_EQ(seen_faces(mesh, {.normal = {1, 0, 0}, .offset = 9}).faces.size(), mesh.boundary.size());
   }
 }
 

@@ -4,6 +4,7 @@ usage: pictures.py --command SCAN2FEA --examples FOLDER
 Prints what is wrong, one line each; exit status 1 if anything is, 77 where numpy is not installed.
 """
 import argparse
+import math
 import os
 import struct
 import subprocess
@@ -92,6 +93,39 @@ def look(draw):
     draw("faces.vtp", "--colour", "face")
 
 
+def curved(draw):
+    # A ball of few elements: those of second order cover its disk, those of first order what their chords leave of it.
+    rings, segments, radius = 24, 48, 10.0
+    points = [(0, 0, radius)]
+    for i in range(1, rings):
+        for k in range(segments):
+            a, b = math.pi * i / rings, 2 * math.pi * k / segments
+            points.append((radius * math.sin(a) * math.cos(b), radius * math.sin(a) * math.sin(b), radius * math.cos(a)))
+    points.append((0, 0, -radius))
+    at = lambda i, k: 1 + (i - 1) * segments + k % segments
+    faces = [(0, at(1, k), at(1, k + 1)) for k in range(segments)]
+    for i in range(1, rings - 1):
+        for k in range(segments):
+            faces += [(at(i, k), at(i + 1, k), at(i + 1, k + 1)), (at(i, k), at(i + 1, k + 1), at(i, k + 1))]
+    faces += [(at(rings - 1, k + 1), at(rings - 1, k), len(points) - 1) for k in range(segments)]
+    with open(os.path.join(draw.folder, "ball.off"), "w") as out:
+        out.write(f"OFF\n{len(points)} {len(faces)} 0\n")
+        out.writelines("%.17g %.17g %.17g\n" % p for p in points)
+        out.writelines("3 %d %d %d\n" % f for f in faces)
+    cover = {}
+    for order in ("1", "2"):
+        draw.run("run", "ball.off", "-o", f"ball{order}.vtu", "--faces", "100", "--order", order, "--quiet")
+        for edges in ((), ("--edges",)):
+            seen = ~is_white(draw(f"ball{order}.vtu", "--view", "front", *edges))
+            rows, columns = numpy.flatnonzero(seen.any(axis=1)), numpy.flatnonzero(seen.any(axis=0))
+            box = (rows[-1] - rows[0] + 1) * (columns[-1] - columns[0] + 1)
+            cover[order, edges] = seen.sum() / box
+    disk = math.pi / 4
+    expect(abs(cover["2", ()] - disk) < 0.005, f"curved elements are round: {cover}")
+    expect(cover["2", ("--edges",)] == cover["2", ()], "and so are their edges")
+    expect(abs(cover["1", ()] - disk) > 0.01, f"flat ones are not: {cover}")
+
+
 def refusals(draw):
     for what, arguments in {
             "a picture is a PNG file": ("part.vtu", "-o", "no.jpg"),
@@ -100,6 +134,7 @@ def refusals(draw):
             "has no sets of faces": ("scan.ply", "-o", "no.png", "--colour", "face"),
             "is none of": ("part.vtu", "-o", "no.png", "--colour", "height"),
             "is no plane": ("part.vtu", "-o", "no.png", "--cut", "x="),
+            "misses the part": ("part.vtu", "-o", "no.png", "--cut", "x=1e4"),
             "is no size": ("part.vtu", "-o", "no.png", "--size", "20000x10"),
             "is no range": ("part.vtu", "-o", "no.png", "--range", "1:0"),
             "no direction": ("part.vtu", "-o", "no.png", "--view", "0,0,0")}.items():
@@ -121,6 +156,7 @@ def main():
         draw.run("run", "scan.ply", "-o", "part.vtu", "--faces", "3000", "--unit", "mm", "--quiet", "--set", "foot=z<3mm")
         draw.run("faces", "scan.ply", "-o", "faces.vtp", "--quiet")
         look(draw)
+        curved(draw)
         refusals(draw)
 
         # The README's own: drawn by its script; that of the scan, which no change of the meshes touches, byte by byte.

@@ -16,6 +16,7 @@ namespace scan2fea {
 namespace {
 
 using nlohmann::json;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::UnorderedElementsAre;
@@ -80,8 +81,9 @@ TEST_F(ReportCommand, FilesAreKnownByTheirSha256) {
 }
 
 TEST_F(ReportCommand, WhatIsWrittenIsKnownByItsSha256) {
-  json outputs = run_ball("part.inp", "--deck static --set 'fixed=z<-5' --set 'loaded=z>5'")["outputs"];
-  for (json& output : run_ball("part.xdmf")["outputs"]) outputs.push_back(std::move(output));  // in two files
+  json outputs = run_ball("part.inp", "--unit mm --deck static --set 'fixed=z<-5' --set 'loaded=z>5'")["outputs"];
+  const json of_two_files = run_ball("part.xdmf");
+  for (const json& output : of_two_files["outputs"]) outputs.push_back(output);
   std::vector<std::string> roles;
   for (const json& output : outputs) {
     const std::string file = output["file"];
@@ -106,6 +108,23 @@ TEST_F(ReportCommand, AFailedGateIsInTheReportAndTheMeshIsNot) {
   EXPECT_THAT(page, HasSubstr("mesh, not written: a gate failed"));
 }
 
+// A box with a hole in its top: the middle of the filling is as far from the scan as the rim is.
+TEST_F(ReportCommand, ThatTheFarthestPointIsOnAFillingIsTold) {
+  SurfaceMesh open = analytic::box({20, 20, 4}, 1);
+  std::erase_if(open.triangles, [&](const Triangle& t) {
+    const Vec3 middle = (open.vertices[t[0]] + open.vertices[t[1]] + open.vertices[t[2]]) / 3;
+    return middle.z() > 3.9 && (middle.head<2>() - Eigen::Vector2d(10, 10)).norm() < 3;
+  });
+  write_surface(open, path("open.ply"));
+  const json made = figures("run " + quoted("open.ply") + " -o " + quoted("part.inp") + " --faces 1500");
+  EXPECT_EQ(made["deviation"]["farthest_is_on_filling"], true);
+  EXPECT_EQ(figures("check " + quoted("part.inp") + " --reference " + quoted("open.ply"))["deviation"],
+            made["deviation"]);
+  EXPECT_THAT(run_command("check " + quoted("part.inp") + " --reference " + quoted("open.ply")).standard_output,
+              HasSubstr(", where a hole was closed"));
+  EXPECT_EQ(run_ball("ball.inp")["deviation"]["farthest_is_on_filling"], false);
+}
+
 TEST_F(ReportCommand, TheJsonOfAReportIsThatOfTheFlag) {
   write_ball("ball.ply");
   ASSERT_EQ(
@@ -127,9 +146,14 @@ TEST_F(ReportCommand, CompareMeasuresTheSecondFromTheFirstAndBothFromTheReferenc
   EXPECT_NEAR(distance(report, diagonal), 0.5, 0.03);
   EXPECT_NEAR(distance(report["compared"]["first"], 1.01 * diagonal), 0.1, 0.03);
   EXPECT_NEAR(distance(report["compared"]["second"], 1.01 * diagonal), 0.4, 0.03);
+  EXPECT_NEAR(report["compared"]["reference"]["diagonal"].get<double>(), 1.01 * diagonal, 1e-5);
   EXPECT_EQ(report["compared"]["first"]["surface"], figures("check " + quoted("a.ply"))["surface"]);
   ASSERT_EQ(run_command("compare " + quoted("a.ply") + " " + quoted("b.ply") + " --report " + quoted("r")).exit_code,
             0);
+  const std::string table = run_command("compare " + quoted("a.ply") + " " + quoted("b.ply")).standard_output;
+  EXPECT_THAT(table, ContainsRegex("\n +first +second\n"));
+  EXPECT_THAT(table, ContainsRegex("\n +Triangles +[0-9]+ +[0-9]+\n"));
+  EXPECT_THAT(table, HasSubstr("\nthe second from the first: deviation"));
   const std::string page = contents(path("r/report.html"));
   EXPECT_THAT(page, HasSubstr("a.ply and b.ply"));
   EXPECT_THAT(page, HasSubstr("The second mesh, <code>" + path("b.ply") + "</code>, is closed"));

@@ -248,7 +248,7 @@ TEST(ReportPage, EveryMeasureIsAFigureWithALabelAndAMeaning) {
   full.volume_mesh.emplace();
   const Json report = to_json(full);
   for (const NamedFigure& measure : shown_figures()) {
-    EXPECT_NE(html::find_figure(report, measure.name), nullptr) << measure.name;
+    EXPECT_NE(find_figure(report, measure.name), nullptr) << measure.name;
     EXPECT_NE(measure.label, "") << measure.name;
     EXPECT_NE(measure.meaning, "") << measure.name;
   }

@@ -34,6 +34,41 @@ TEST(SignedDeviation, IsZeroOnTheReferenceItself) {
   for (const double d : signed_deviations(box, TriangleTree(box))) EXPECT_NEAR(d, 0, 1e-12);
 }
 
+TEST(SignedDeviation, OfPointsIsThatOfTheTrianglesNearestToThem) {
+  const SurfaceMesh ball = analytic::sphere(10, 3);
+  std::vector<Vec3> points;
+  for (const Triangle& t : ball.triangles) {
+    const Vec3 middle = (ball.vertices[t[0]] + ball.vertices[t[1]] + ball.vertices[t[2]]) / 3;
+    points.push_back(middle + (middle.z() > 0 ? 0.3 : -0.2) * area_vector(ball, t).normalized());
+  }
+  points.pop_back();
+  const std::vector<double> found = signed_deviations_from_points(points, ball);
+  ASSERT_EQ(found.size(), ball.triangles.size());
+  for (std::size_t f = 0; f < points.size(); ++f) EXPECT_NEAR(found[f], points[f].z() > 0 ? -0.3 : 0.2, 0.01);
+  EXPECT_TRUE(std::isnan(found.back()));
+}
+
+// A vault, z = 2 + x (2 - x) / 4, which elements of second order have exactly.
+TEST(SignedDeviation, OfPointsIsThatOfTheCurvedFace) {
+  TetMesh mesh = analytic::tetrahedra_of_box({2, 2, 2}, {2, 2, 2}, 2);
+  const auto vault = [](double x) { return 0.25 * x * (2 - x); };
+  for (Vec3& p : mesh.nodes)
+    if (p.z() == 2) p.z() += vault(p.x());
+  std::vector<Vec3> points;
+  for (double x = 0.05; x < 2; x += 0.1)
+    for (double y = 0.05; y < 2; y += 0.1)
+      points.push_back(Vec3(x, y, 2 + vault(x)) + 0.01 * Vec3(-0.25 * (2 - 2 * x), 0, 1).normalized());
+  const std::vector<double> found = signed_deviations_from_points(points, mesh);
+  ASSERT_EQ(found.size(), mesh.outer_faces());
+  std::size_t measured = 0;
+  for (std::size_t f = 0; f < found.size(); ++f) {
+    if (std::isnan(found[f])) continue;
+    ++measured;
+    EXPECT_NEAR(found[f], -0.01, 3e-4);  // pieces of a 16th of an edge lie up to 2.5e-4 below the vault
+  }
+  EXPECT_EQ(measured, 8U);  // the vault's faces: two for each of four blocks
+}
+
 // The scan's own orientation does not matter.
 TEST(SignedDeviation, TakesItsSignFromTheMesh) {
   SurfaceMesh turned = analytic::sphere(10, 3);

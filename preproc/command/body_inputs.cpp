@@ -45,34 +45,35 @@ bool parts_all(const std::vector<NamedSet>& sets, std::size_t triangles) {
   return taken == triangles;
 }
 
+std::vector<std::string> names_of_bodies(const std::vector<NamedSet>& sets, Notes& changes) {
+  Notes of_sets;
+  std::vector<std::string> names = names_for(sets, rules, {}, of_sets);
+  for (std::size_t s = 0; s < sets.size(); ++s)
+    if (names[s] != sets[s].name) changes.push_back("body '" + sets[s].name + "' is named " + names[s]);
+  return names;
+}
+
 }  // namespace
 
-std::vector<std::string> body_names(std::vector<std::string> given) {
+std::vector<std::string> body_names(const std::vector<std::filesystem::path>& files, Notes& changes) {
   std::vector<NamedSet> sets;
-  for (std::string& name : given) sets.push_back({std::move(name), {}});
-  std::vector<std::string> changes;
-  return names_for(sets, rules, {}, changes);
-}
-
-std::vector<std::string> body_names(const std::vector<std::filesystem::path>& files) {
-  std::vector<std::string> names;
   for (std::filesystem::path file : files) {
     if (lower_case_extension(file) == ".gz") file.replace_extension();
-    names.push_back(file.stem().string());
+    sets.push_back({file.stem().string(), {}});
   }
-  return body_names(std::move(names));
+  return names_of_bodies(sets, changes);
 }
 
-std::vector<Body> bodies_of_groups(const SurfaceMesh& surface, const std::vector<NamedSet>& sets) {
+std::vector<Body> bodies_of_groups(const SurfaceMesh& surface, const std::vector<NamedSet>& sets, Notes& changes) {
   std::vector<Body> bodies;
   if (sets.size() < 2 || !parts_all(sets, surface.triangles.size())) return bodies;
-  std::vector<std::string> names;
-  for (const NamedSet& set : sets) names.push_back(set.name);
-  names = body_names(std::move(names));
+  Notes renamed;
+  const std::vector<std::string> names = names_of_bodies(sets, renamed);
   for (std::size_t s = 0; s < sets.size(); ++s) {
     Body& body = bodies.emplace_back(Body{names[s], part_of(surface, sets[s])});
     if (!encloses_volume(body.surface) || enclosed_volume(body.surface) <= 0) return {};
   }
+  changes.insert(changes.end(), renamed.begin(), renamed.end());
   return bodies;
 }
 

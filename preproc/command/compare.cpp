@@ -58,6 +58,7 @@ int compare(CompareFlags flags) {
   subject.first_element = first_element_of(flags.second);
   subject.compared = {{"first", column(first, flags.common.input, flags, scan)},
                       {"second", column(second, flags.second, flags, scan)}};
+  if (scan.surface) subject.compared["reference"] = extent_of(*scan.surface);
   flags.common.input = flags.second;
   OutputFiles outputs;
   const bool all_pass = report_figures(subject, flags.common, gates, display, outputs);

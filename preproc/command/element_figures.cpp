@@ -13,12 +13,6 @@ namespace {
 
 constexpr std::size_t worst_listed = 10;
 
-const std::vector<NamedSet>& face_sets_of(const Subject& subject) {
-  static const std::vector<NamedSet> none;
-  if (subject.volume_mesh != nullptr) return subject.volume_mesh->face_sets;
-  return subject.face_sets != nullptr ? *subject.face_sets : none;
-}
-
 Json tetrahedra_json(const std::vector<WorstTetrahedron>& worst, const Subject& subject) {
   Json list = Json::array();
   for (const WorstTetrahedron& element : worst) {
@@ -58,6 +52,12 @@ std::string title_of(const Json& report, const Subject& subject) {
 
 }  // namespace
 
+const std::vector<NamedSet>& face_sets_of(const Subject& subject) {
+  static const std::vector<NamedSet> none;
+  if (subject.volume_mesh != nullptr) return subject.volume_mesh->face_sets;
+  return subject.face_sets != nullptr ? *subject.face_sets : none;
+}
+
 std::uint64_t element_number(std::uint32_t element, const Subject& subject) {
   const std::vector<std::uint32_t>& numbers = subject.element_numbers;
   return element < numbers.size() ? numbers[element] : subject.first_element + element;
@@ -79,9 +79,10 @@ std::string worst_element_row(const Subject& subject, const Json& report) {
 
 ElementFigures measure_elements(const Subject& subject) {
   ElementFigures elements;
+  const std::vector<Vec3>* points = subject.cloud != nullptr ? &subject.cloud->points : nullptr;
   elements.measures = subject.volume_mesh != nullptr
-                          ? scan2fea::measure_elements(*subject.volume_mesh, subject.reference)
-                          : scan2fea::measure_elements(*subject.surface, subject.reference);
+                          ? scan2fea::measure_elements(*subject.volume_mesh, subject.reference, points)
+                          : scan2fea::measure_elements(*subject.surface, subject.reference, points);
   elements.histograms = histograms_of(elements.measures);
   return elements;
 }

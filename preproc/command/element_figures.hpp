@@ -23,6 +23,9 @@ std::uint64_t element_number(std::uint32_t element, const Subject& subject);
 std::string worst_element_row(const Subject& subject, const Json& report);
 
 // Precondition: the subject has a surface.
+// Of the surface, or of a volume mesh its boundary.
+const std::vector<NamedSet>& face_sets_of(const Subject& subject);
+
 ElementFigures measure_elements(const Subject& subject);
 
 // Adds `histograms` and `worst_elements`.

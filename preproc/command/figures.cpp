@@ -5,12 +5,15 @@
 #include "preproc/command/element_figures.hpp"
 #include "preproc/command/face_files.hpp"
 #include "preproc/command/gates_asked.hpp"
+#include "preproc/made_up.hpp"
 #include "preproc/surface/repair/solid_volume.hpp"
 #include "quality/curved_surface.hpp"
 #include "quality/junit.hpp"
+#include "quality/triangle_tree.hpp"
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <numbers>
 
@@ -137,6 +140,16 @@ Json to_json(const std::vector<MadeTouch>& touches) {
   return list;
 }
 
+bool is_on_filling(const Vec3& place, const Subject& subject) {
+  const std::vector<NamedSet>& sets = face_sets_of(subject);
+  const std::size_t filled = find_set(sets, filled_set);
+  if (filled == sets.size()) return false;
+  const SurfaceMesh faces =
+      subject.volume_mesh != nullptr ? outer_corner_faces(*subject.volume_mesh) : *subject.surface;
+  const std::uint32_t nearest = TriangleTree(faces).closest(place).triangle;
+  return std::ranges::find(sets[filled].members, nearest) != sets[filled].members.end();
+}
+
 // Of a file.
 Json sets_of(const TetMesh& mesh) {
   Json list = Json::array();
@@ -156,7 +169,7 @@ Json sets_of(const TetMesh& mesh) {
   return list;
 }
 
-Json extent_of(const std::vector<Vec3>& points) {
+Json box_of(const std::vector<Vec3>& points) {
   const BoundingBox box = bounding_box(points);
   return {{"box", point_json(box.high - box.low)}, {"diagonal", box.diagonal()}};
 }
@@ -166,11 +179,9 @@ void add_origin(const Subject& subject, const CommonFlags& flags, Json& report) 
   report["program"] = program_json();
   report["command"] = command_json(flags.caller != nullptr ? flags.caller->arguments : arguments_of_process());
   report["inputs"] = inputs_json(subject.inputs);
-  if (subject.surface != nullptr) report["size"] = extent_of(subject.surface->vertices);
-  if (subject.reference == nullptr) return;
-  report["reference"] = extent_of(subject.reference->vertices);
-  report["reference"]["vertices"] = subject.reference->vertices.size();
-  report["reference"]["triangles"] = subject.reference->triangles.size();
+  if (!subject.written.empty()) report["outputs"] = outputs_json(subject.written);
+  if (subject.surface != nullptr) report["size"] = box_of(subject.surface->vertices);
+  if (subject.reference != nullptr) report["reference"] = extent_of(*subject.reference);
 }
 
 std::string size_text(const std::vector<Vec3>& points, const CommonFlags& flags) {
@@ -182,6 +193,13 @@ std::string size_text(const std::vector<Vec3>& points, const CommonFlags& flags)
 }
 
 }  // namespace
+
+Json extent_of(const SurfaceMesh& mesh) {
+  Json extent = box_of(mesh.vertices);
+  extent["vertices"] = mesh.vertices.size();
+  extent["triangles"] = mesh.triangles.size();
+  return extent;
+}
 
 Json measure(const Subject& subject, const CommonFlags& flags) {
   Report report;
@@ -211,6 +229,9 @@ Json measure(const Subject& subject, const CommonFlags& flags) {
   }
   if (subject.volume_mesh != nullptr) report.volume_mesh = measure_tetrahedra(*subject.volume_mesh);
   Json json = scan2fea::to_json(report);
+  if (report.deviation)
+    json["deviation"]["farthest_is_on_filling"] =
+        !report.deviation->farthest_is_on_reference && is_on_filling(report.deviation->farthest_point, subject);
   if (flags.unit) json["unit"] = *flags.unit;
   if (subject.repaired != nullptr) {
     json["lost"] = list_changes(*subject.repaired, is_lost);
@@ -236,14 +257,15 @@ Json measure(const Subject& subject, const CommonFlags& flags) {
 std::vector<GateResult> finish_report(Json& report, const Subject& subject, const CommonFlags& flags,
                                       const std::vector<Gate>& gates, OutputFiles& outputs) {
   const bool wants_all = flags.json || flags.report || flags.caller != nullptr;
-  if (wants_all || has_gate_on(gates, {"inputs", "size", "reference"})) add_origin(subject, flags, report);
+  if (wants_all || has_gate_on(gates, {"inputs", "outputs", "size", "reference"})) add_origin(subject, flags, report);
   ElementFigures elements;
   if (subject.surface != nullptr && (wants_all || has_gate_on(gates, {"histograms", "worst_elements"}))) {
     elements = measure_elements(subject);
     add_to_json(elements, subject, report);
   }
   std::vector<GateResult> results = judge(gates, subject, report);
-  if (wants_all && !subject.written.empty()) report["outputs"] = outputs_json(subject.written, all_pass(results));
+  if (report.contains("outputs"))
+    for (Json& output : report["outputs"]) output["written"] = all_pass(results);
   if (flags.json) add_json(report, *flags.json, outputs);
   if (flags.junit) add_text(junit_text(report, subject.output.value_or(flags.input).string()), *flags.junit, outputs);
   if (flags.report) add_report(report, page_of(report, elements, subject), flags, outputs);

@@ -39,6 +39,9 @@ struct Subject {
   Json compared = {};                                // of `compare`, both meshes' figures
 };
 
+// The box of points, its diagonal, and how many vertices and triangles the mesh has.
+Json extent_of(const SurfaceMesh& mesh);
+
 // All figures but those of single elements, without gates.
 Json measure(const Subject& subject, const CommonFlags& flags);
 

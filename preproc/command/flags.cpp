@@ -319,7 +319,7 @@ void add_tetrahedralize_flags(CLI::App& command, TetrahedralizeOptions& options,
 }
 
 void add_contact_flag(CLI::App& command, std::optional<double>& tolerance) {
-  const OptionGroup group(command, "Several bodies");
+  const OptionGroup group(command, bodies_group);
   command
       .add_option(
           "--contact", tolerance,

@@ -59,6 +59,10 @@ void add_time_limit_flag(CLI::App& command, std::optional<double>& seconds);
 void add_force_flag(CLI::App& command, bool& force);             // of all that take no common flags
 void add_display_flags(CLI::App& command, DisplayFlags& flags);  // the same
 void add_size_flags(CLI::App& command, SizeFlags& flags);
+// Groups of options that count for some inputs only.
+inline constexpr const char *clouds_group = "Clouds", *enrichment_group = "Enrichment",
+                            *bodies_group = "Several bodies";
+
 void add_reconstruct_flags(CLI::App& command, ReconstructOptions& options);
 void add_repair_flags(CLI::App& command, RepairOptions& options);
 void add_enrich_flags(CLI::App& command, EnrichOptions& options, std::string& domain);

@@ -118,7 +118,8 @@ LoadedReference reference_of(LoadedMesh mesh) {
   LoadedReference reference;
   reference.unit = mesh.unit;
   if (!mesh.volume_mesh) {
-    if (const std::vector<Body> bodies = bodies_of_groups(mesh.surface, mesh.face_sets); !bodies.empty()) {
+    Notes names;
+    if (const std::vector<Body> bodies = bodies_of_groups(mesh.surface, mesh.face_sets, names); !bodies.empty()) {
       reference.is_of_bodies = true;
       reference.solid_volume = volume_of_bodies(bodies);
     }

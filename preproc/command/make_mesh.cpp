@@ -15,6 +15,7 @@
 #include "preproc/command/read_inputs.hpp"
 #include "preproc/command/size_checks.hpp"
 #include "preproc/command/stage_words.hpp"
+#include "preproc/command/unused_options.hpp"
 #include "preproc/command/write_mesh.hpp"
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/joined.hpp"
@@ -135,15 +136,19 @@ std::vector<std::string> warnings_of(const Scan& scan, const CommonFlags& flags)
   return std::visit([&](const auto& input) { return input_warnings(input, flags.unit); }, scan);
 }
 
-void describe_inputs(const Scan& scan, const std::vector<Body>& bodies, const MakeMeshJob& job,
-                     ProgressDisplay& display) {
-  if (bodies.empty()) display.line(describe(scan, job.common));
-  for (const Body& body : bodies) {
+void describe_inputs(const ReadInputs& inputs, const MakeMeshJob& job, ProgressDisplay& display) {
+  if (inputs.bodies.empty()) display.line(describe(inputs.scan, job.common));
+  for (const Body& body : inputs.bodies) {
     CommonFlags named = job.common;
     named.input = body.name;
     display.line(describe_input(body.surface, named));
   }
-  for (const std::string& warning : warnings_of(scan, job.common)) warn(shown_name(job.common.input) + ": " + warning);
+  const auto tell = [&](const std::vector<std::string>& warnings) {
+    for (const std::string& warning : warnings) warn(shown_name(job.common.input) + ": " + warning);
+  };
+  tell(inputs.notes);
+  tell(unused_options(job, inputs));
+  tell(warnings_of(inputs.scan, job.common));
 }
 
 void parse_sets(MakeMeshJob& job) {
@@ -320,6 +325,7 @@ std::vector<WrittenFile> written_files(const OutputFiles& outputs, const MakeMes
 }  // namespace
 
 void add_surface_flags(CLI::App& command, MakeMeshJob& job) {
+  job.declared = &command;
   add_common_flags(command, job.common);
   add_output_flag(command, job.output);
   add_to_flag(command, job.common.formats.to);
@@ -328,7 +334,7 @@ void add_surface_flags(CLI::App& command, MakeMeshJob& job) {
   add_reconstruct_flags(command, job.pipeline.reconstruct);
   add_repair_flags(command, *job.pipeline.repair);
   {
-    const OptionGroup group(command, "Enrichment");
+    const OptionGroup group(command, enrichment_group);
     command.add_flag("--enrich", job.enrich, "First add points where the scanner left too few (see scan2fea enrich)");
   }
   add_enrich_flags(command, job.enrich_options, job.enrich_domain);
@@ -352,13 +358,14 @@ int make_mesh(MakeMeshJob job) {
 
   display.expect(expected_stages(job, expected_work(job)));
   display.begin("read");
-  auto [scan, bodies] = read_inputs(job);
+  ReadInputs inputs = read_inputs(job);
+  Scan& scan = inputs.scan;
   parse_sets(job);
   require_deck(job, scan);
-  describe_inputs(scan, bodies, job, display);
+  describe_inputs(inputs, job, display);
   settle_options(job);
-  require_lengths_within(box_of(scan, bodies), job);
-  PipelineResult result = run_naming_input(scan, std::move(bodies), job, progress, display);
+  require_lengths_within(box_of(scan, inputs.bodies), job);
+  PipelineResult result = run_naming_input(scan, std::move(inputs.bodies), job, progress, display);
   tell_what_was_left_out(result, job);
   for (const WeakPlace& place : result.weak_places)
     warn(shown_name(job.common.input) + ": " + place.describe() + "; a solver may refuse it");

@@ -16,7 +16,8 @@ struct MakeMeshJob {
   std::filesystem::path output;
   SizeFlags size;
   FeatureFileFlags features;
-  std::vector<std::string> sets;  // NAME=EXPRESSION
+  std::vector<std::string> sets;       // NAME=EXPRESSION
+  const CLI::App* declared = nullptr;  // the sub-command, where options of it may not count
   PipelineOptions pipeline;
   std::optional<double> time_limit;  // of the whole command, seconds
   TakesClouds takes_clouds = TakesClouds::no;

@@ -157,6 +157,13 @@ std::string did_you_mean(const std::string& mistyped, const std::vector<std::str
   return text.empty() ? "" : "; did you mean " + text + "?";
 }
 
+std::vector<std::string> given_in_group(const CLI::App& command, const std::string& group) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options())
+    if (option->get_group() == group && !option->empty()) names.push_back(option->get_name());
+  return names;
+}
+
 OptionGroup::OptionGroup(CLI::App& command, std::string name)
     : command_(command), name_(std::move(name)), before_(command.get_options().size()) {}
 

@@ -38,6 +38,9 @@ std::vector<std::string> similar_names(const std::string& mistyped, const std::v
 // "; did you mean --faces?", or nothing.
 std::string did_you_mean(const std::string& mistyped, const std::vector<std::string>& names);
 
+// The options of a group that were given, by their names: {"--scanner"}.
+std::vector<std::string> given_in_group(const CLI::App& command, const std::string& group);
+
 // All options that are declared while it lives, and have no group yet, belong to this one.
 class OptionGroup {
  public:

@@ -12,12 +12,15 @@
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/error_text.hpp"
 #include "preproc/mesh/file_extension.hpp"
+#include "quality/curved_surface.hpp"
 #include "quality/picture/cut_open.hpp"
 #include "quality/picture/legend.hpp"
 #include "quality/picture/png.hpp"
 
 #include <algorithm>
 #include <array>
+#include <limits>
+#include <span>
 #include <string_view>
 
 namespace scan2fea::command {
@@ -135,33 +138,86 @@ Cut cut_before(const CutFlag& flag, const Vec3& eye, const SurfaceMesh& mesh) {
   const BoundingBox box = bounding_box(mesh.vertices);
   Cut cut{.normal = flag.normal, .offset = flag.offset.value_or(flag.normal.dot(0.5 * (box.low + box.high)))};
   if (cut.normal.dot(eye) < 0) cut = {.normal = -cut.normal, .offset = -cut.offset};
+  double least = std::numeric_limits<double>::infinity(), largest = -least;
+  for (const Vec3& p : mesh.vertices) {
+    least = std::min(least, flag.normal.dot(p));
+    largest = std::max(largest, flag.normal.dot(p));
+  }
+  if (flag.offset && (*flag.offset <= least || *flag.offset >= largest))
+    throw WrongUsage({.what = "the plane of the cut misses the part",
+                      .where = "--cut",
+                      .value = error_text(*flag.offset),
+                      .limit = "between " + error_text(least) + " and " + error_text(largest),
+                      .advice = "the normal alone, which cuts through the middle"});
   return cut;
+}
+
+// What is drawn: triangles with their colours, and which of their sides are edges of the mesh, where not all are.
+struct Shown {
+  SurfaceMesh mesh;
+  std::vector<Rgb> colours;
+  std::vector<std::array<bool, 3>> sides;
+};
+
+// Curved ones in flat pieces that no eye tells from them.
+Shown shown(const TetMesh& mesh, std::span<const BoundaryFace> faces, std::vector<Rgb> colours, double pixel) {
+  Shown shown;
+  if (mesh.order() == 1) {
+    shown.mesh.vertices = mesh.nodes;
+    for (const BoundaryFace f : faces) shown.mesh.triangles.push_back(boundary_triangle(mesh, f));
+    shown.colours = std::move(colours);
+    return shown;
+  }
+  FlatPieces pieces = flat_pieces(mesh, faces, 0.1 * pixel);
+  shown.mesh = std::move(pieces.mesh);
+  constexpr double rounding = 1e-9;
+  for (std::size_t f = 0; f < pieces.of_piece.size(); ++f) {
+    shown.colours.push_back(colours[pieces.of_piece[f]]);
+    std::array<bool, 3>& sides = shown.sides.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Eigen::Vector2d &p = pieces.places[f][(k + 1) % 3], &q = pieces.places[f][(k + 2) % 3];
+      sides[k] = std::max(p.x(), q.x()) < rounding || std::max(p.y(), q.y()) < rounding ||
+                 std::min(p.sum(), q.sum()) > 1 - rounding;
+    }
+  }
+  return shown;
+}
+
+// Of a volume mesh that is cut open, whole elements.
+Shown cut_open(const TetMesh& mesh, const Cut& cut, const ElementColours& colours, double pixel) {
+  const SeenFaces seen = seen_faces(mesh, cut);
+  constexpr Rgb of_inside{226, 229, 233};  // where the colours say nothing of it
+  std::vector<Rgb> list;
+  for (std::size_t i = 0; i < seen.faces.size(); ++i) {
+    const std::uint32_t face = seen.boundary_face[i];
+    list.push_back(face != SeenFaces::inside       ? colours.of_faces[face]
+                   : colours.of_tetrahedra.empty() ? of_inside
+                                                   : colours.of_tetrahedra[seen.faces[i].tetrahedron]);
+  }
+  return shown(mesh, seen.faces, std::move(list), pixel);
 }
 
 Raster drawn(const LoadedMesh& mesh, const SurfaceMesh& faces, const ElementColours& colours,
              const PictureFlags& flags) {
   const std::uint32_t beside = legend_width(colours.legend, flags.size.height);
   const std::uint32_t width = flags.size.width > 2 * beside ? flags.size.width - beside : flags.size.width / 2;
-  const PictureOptions options{.width = width, .height = flags.size.height, .edges = flags.edges};
   const bool is_from_above = flags.eye.normalized().cross(Vec3::UnitZ()).norm() < 1e-6;
   PictureView view = view_of_all(faces, -flags.eye, is_from_above ? Vec3::UnitY() : Vec3::UnitZ(),
                                  static_cast<double>(width) / flags.size.height);
-  if (!flags.cut) return draw_raster(faces, colours.of_faces, view, options);
-  const Cut cut = cut_before(*flags.cut, flags.eye, faces);
+  std::optional<Cut> cut;
+  if (flags.cut) cut = cut_before(*flags.cut, flags.eye, faces);
+  PictureOptions options{.width = width, .height = flags.size.height, .edges = flags.edges};
   if (!mesh.volume_mesh) {
     view.cut = cut;
     return draw_raster(faces, colours.of_faces, view, options);
   }
-  const SeenFaces seen = seen_faces(*mesh.volume_mesh, cut);
-  constexpr Rgb of_inside{226, 229, 233};  // where the colours say nothing of it
-  std::vector<Rgb> list;
-  for (std::size_t i = 0; i < seen.tetrahedron.size(); ++i) {
-    const std::uint32_t face = seen.boundary_face[i];
-    list.push_back(face != SeenFaces::inside       ? colours.of_faces[face]
-                   : colours.of_tetrahedra.empty() ? of_inside
-                                                   : colours.of_tetrahedra[seen.tetrahedron[i]]);
-  }
-  return draw_raster(seen.mesh, list, view, options);
+  const TetMesh& volume = *mesh.volume_mesh;
+  const double pixel = view.height / flags.size.height;
+  const Shown seen =
+      cut ? cut_open(volume, *cut, colours, pixel)
+          : shown(volume, std::span(volume.boundary.data(), volume.outer_faces()), colours.of_faces, pixel);
+  options.sides = seen.sides;
+  return draw_raster(seen.mesh, seen.colours, view, options);
 }
 
 int picture(const PictureFlags& flags) {
@@ -171,15 +227,11 @@ int picture(const PictureFlags& flags) {
   const LoadedMesh mesh = load_mesh(file_to_read(flags.input, flags.from));
   const std::string unit = settled_unit(mesh.unit, flags.unit, flags.input.string());
   const LoadedReference reference = load_references(flags.references, unit);
-  if (!flags.references.empty() && !reference.surface)
-    throw WrongUsage({.what = "the reference is a point cloud, which has no sides",
-                      .where = flags.references.front().string(),
-                      .value = {},
-                      .limit = {},
-                      .advice = "a surface: scan2fea reconstruct"});
-  const SurfaceMesh* scan = flags.colour_by() == "deviation" ? &*reference.surface : nullptr;
-  const ElementMeasures measures =
-      mesh.volume_mesh ? measure_elements(*mesh.volume_mesh, scan) : measure_elements(mesh.surface, scan);
+  const bool is_measured = flags.colour_by() == "deviation";
+  const SurfaceMesh* scan = is_measured && reference.surface ? &*reference.surface : nullptr;
+  const std::vector<Vec3>* points = is_measured && reference.cloud ? &reference.cloud->points : nullptr;
+  const ElementMeasures measures = mesh.volume_mesh ? measure_elements(*mesh.volume_mesh, scan, points)
+                                                    : measure_elements(mesh.surface, scan, points);
   const ElementColours colours = colours_of(mesh, measures, unit, flags);
   const Raster raster = with_legend(drawn(mesh, measures.faces, colours, flags), colours.legend);
   OutputFiles outputs;

@@ -87,12 +87,9 @@ Json inputs_json(const std::vector<ReadFile>& files) {
   return list;
 }
 
-Json outputs_json(const std::vector<WrittenFile>& files, bool are_written) {
+Json outputs_json(const std::vector<WrittenFile>& files) {
   Json list = Json::array();
-  for (const WrittenFile& file : files) {
-    list.push_back(entry(file.role, file.path, are_written ? file.readable : std::filesystem::path()));
-    list.back()["written"] = are_written;
-  }
+  for (const WrittenFile& file : files) list.push_back(entry(file.role, file.path, file.readable));
   return list;
 }
 

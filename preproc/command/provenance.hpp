@@ -33,7 +33,7 @@ struct WrittenFile {
   std::filesystem::path readable;  // by which this process finds it
 };
 
-// [{role, file, bytes, sha256, written}]; null and false where a gate keeps it from its place.
-Json outputs_json(const std::vector<WrittenFile>& files, bool are_written);
+// The same, of what will be in place if no gate fails.
+Json outputs_json(const std::vector<WrittenFile>& files);
 
 }  // namespace scan2fea::command

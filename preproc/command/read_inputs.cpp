@@ -89,14 +89,14 @@ void add_to_one_body(MakeMeshJob& job, Scan& first) {
 }
 
 // Of the files, where there are several, or else of the groups of the only one; none where that is one body.
-std::vector<Body> read_bodies(MakeMeshJob& job, const Scan& first) {
+std::vector<Body> read_bodies(MakeMeshJob& job, const Scan& first, Notes& notes) {
   const auto* mesh = std::get_if<SurfaceMesh>(&first);
   if (job.one_body) return {};
   if (job.more_bodies.empty())
-    return mesh == nullptr ? std::vector<Body>() : bodies_of_groups(*mesh, job.pipeline.given_sets);
+    return mesh == nullptr ? std::vector<Body>() : bodies_of_groups(*mesh, job.pipeline.given_sets, notes);
   std::vector<std::filesystem::path> files{name_of_input(job.common.input)};
   files.insert(files.end(), job.more_bodies.begin(), job.more_bodies.end());
-  const std::vector<std::string> names = body_names(files);
+  const std::vector<std::string> names = body_names(files, notes);
   std::vector<Body> bodies;
   for (std::size_t b = 0; b < files.size(); ++b) {
     const NamedScan read = b == 0 ? NamedScan() : read_file(b, job);
@@ -110,9 +110,9 @@ std::vector<Body> read_bodies(MakeMeshJob& job, const Scan& first) {
 }  // namespace
 
 ReadInputs read_inputs(MakeMeshJob& job) {
-  ReadInputs inputs{.scan = read_input(job), .bodies = {}};
+  ReadInputs inputs{.scan = read_input(job), .bodies = {}, .notes = {}};
   if (job.one_body) add_to_one_body(job, inputs.scan);
-  inputs.bodies = read_bodies(job, inputs.scan);
+  inputs.bodies = read_bodies(job, inputs.scan, inputs.notes);
   return inputs;
 }
 

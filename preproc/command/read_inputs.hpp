@@ -1,6 +1,7 @@
 // What a job is of, read from its files or taken from the program that called, which has it in memory.
 #pragma once
 
+#include "export/mesh_file.hpp"
 #include "preproc/bodies/body_complex.hpp"
 #include "preproc/command/make_mesh.hpp"
 #include "preproc/mesh/read_cloud.hpp"
@@ -12,6 +13,7 @@ namespace scan2fea::command {
 struct ReadInputs {
   Scan scan;
   std::vector<Body> bodies;  // where there are several, the scan among them
+  Notes notes;               // names of theirs that had to be changed
 };
 
 // Settles the job's unit, and sets that the input came with. Throws what readers throw, and WrongUsage for a cloud

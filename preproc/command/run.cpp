@@ -23,7 +23,7 @@ SubCommand add_run(CLI::App& root) {
   app->add_option("more", job->more_bodies, "More bodies, each a file: they share nodes where they touch")
       ->type_name("FILE");
   add_contact_flag(*app, job->joining.tolerance);
-  const OptionGroup group(*app, "Several bodies");
+  const OptionGroup group(*app, bodies_group);
   app->add_flag("--one-body", job->one_body, "One body of all that is read: what overlaps is united");
   app->get_option("--holes")->description(
       "What becomes of holes: close; with keep no volume fits in (scan2fea surface)");

@@ -28,7 +28,7 @@ KeptBodies parse_bodies(const std::string& text) {
 }  // namespace
 
 void add_reconstruct_flags(CLI::App& command, ReconstructOptions& options) {
-  const OptionGroup group(command, "Clouds");
+  const OptionGroup group(command, clouds_group);
   add_choice<ReconstructionMethod>(
       command, "--reconstruction", options.method,
       named({ReconstructionMethod::automatic, ReconstructionMethod::advancing_front, ReconstructionMethod::poisson}),
@@ -96,7 +96,7 @@ void add_repair_flags(CLI::App& command, RepairOptions& options) {
 }
 
 void add_enrich_flags(CLI::App& command, EnrichOptions& options, std::string& domain) {
-  const OptionGroup group(command, "Enrichment");
+  const OptionGroup group(command, enrichment_group);
   command
       .add_option_function<std::string>(
           "--scheme",

@@ -3,6 +3,7 @@
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/error_text.hpp"
 
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -42,11 +43,24 @@ std::vector<Length> lengths_of(const MakeMeshJob& job) {
   return lengths;
 }
 
+// A file of 32-bit coordinates, as most scans are, has no closer truth.
+void require_deviation_above_rounding(const RelativeLength& deviation, double diagonal) {
+  constexpr double rounding = std::numeric_limits<float>::epsilon() / 2;
+  const double length = deviation.relative ? deviation.value * diagonal : deviation.value;
+  if (length >= rounding * diagonal) return;
+  throw WrongUsage({.what = "closer to the scan than its coordinates are to the part",
+                    .where = "--deviation",
+                    .value = error_text(length),
+                    .limit = error_text(rounding * diagonal, 2),
+                    .advice = "0.1%"});
+}
+
 }  // namespace
 
 void require_lengths_within(const BoundingBox& part, const MakeMeshJob& job) {
   const double diagonal = part.diagonal();
   if (!(diagonal > 0)) return;  // that is told by others
+  if (job.size.deviation) require_deviation_above_rounding(*job.size.deviation, diagonal);
   for (const Length& length : lengths_of(job)) {
     const double limit = length.limit_of_diagonal * diagonal;
     if (length.value && *length.value >= limit)

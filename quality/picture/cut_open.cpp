@@ -38,13 +38,11 @@ SeenFaces seen_faces(const TetMesh& mesh, const Cut& cut) {
     return std::tie(a.sorted, a.tetrahedron) < std::tie(b.sorted, b.tetrahedron);
   });
   SeenFaces seen;
-  seen.mesh.vertices = mesh.nodes;
   for (std::size_t i = 0; i < faces.size(); ++i) {
     const auto is_same = [&](std::size_t j) { return j < faces.size() && faces[j].sorted == faces[i].sorted; };
     if (is_same(i + 1) || (i > 0 && is_same(i - 1))) continue;
     const Face& face = faces[i];
-    seen.mesh.triangles.push_back(boundary_triangle(mesh, {face.tetrahedron, face.face}));
-    seen.tetrahedron.push_back(face.tetrahedron);
+    seen.faces.push_back({face.tetrahedron, face.face});
     seen.boundary_face.push_back(boundary_of[face.tetrahedron][face.face]);
   }
   return seen;

@@ -10,15 +10,14 @@
 namespace scan2fea {
 
 struct SeenFaces {
-  SurfaceMesh mesh;                        // with all nodes of the volume mesh
-  std::vector<std::uint32_t> tetrahedron;  // per triangle
-  // Per triangle its place in TetMesh::boundary, or this.
+  std::vector<BoundaryFace> faces;
+  // Per face its place in TetMesh::boundary, or this.
   static constexpr std::uint32_t inside = 0xffffffff;
   std::vector<std::uint32_t> boundary_face;
 };
 
 // The faces of the elements whose middle stays that no other such element hides: whole elements, as they are.
-// Second-order elements by their corners. O(n log n).
+// O(n log n).
 SeenFaces seen_faces(const TetMesh& mesh, const Cut& cut);
 
 }  // namespace scan2fea

@@ -55,10 +55,10 @@ class Canvas {
   Canvas(std::uint32_t width, std::uint32_t height)
       : width_(width), height_(height), samples_(static_cast<std::size_t>(width) * height) {}
 
-  // Where `edges` is above 0, samples that are nearer than this to a side are dark. `beyond`: how far each corner is
-  // beyond a cut, if there is one.
-  void fill(const std::array<Vec3, 3>& p, const Rgb& colour, double brightness, double edges, double nearest,
-            const std::optional<Vec3>& beyond) {
+  // `edges`: samples that are nearer than this to the side across from a corner are dark. `beyond`: how far each corner
+  // is beyond a cut, if there is one.
+  void fill(const std::array<Vec3, 3>& p, const Rgb& colour, double brightness, const std::array<double, 3>& edges,
+            double nearest, const std::optional<Vec3>& beyond) {
     const double area = (p[1] - p[0]).head<2>().x() * (p[2] - p[0]).y() - (p[1] - p[0]).y() * (p[2] - p[0]).x();
     if (!(std::abs(area) > 0)) return;
     const auto [left, right] = std::minmax({p[0].x(), p[1].x(), p[2].x()});
@@ -83,7 +83,7 @@ class Canvas {
         const auto depth = static_cast<float>(b[0] * p[0].z() + b[1] * p[1].z() + b[2] * p[2].z());
         Sample& sample = samples_[static_cast<std::size_t>(y) * width_ + x];
         if (!(depth < sample.depth) || depth < nearest) continue;
-        const bool is_edge = b[0] * height[0] < edges || b[1] * height[1] < edges || b[2] * height[2] < edges;
+        const bool is_edge = b[0] * height[0] < edges[0] || b[1] * height[1] < edges[1] || b[2] * height[2] < edges[2];
         sample.depth = depth;
         for (std::size_t c = 0; c < 3; ++c)
           sample.colour[c] = static_cast<std::uint8_t>(colour[c] * brightness * (is_edge ? 0.6 : 1.0));
@@ -151,14 +151,17 @@ Raster draw_raster(const SurfaceMesh& mesh, std::span<const Rgb> colours, const 
     const Triangle& t = mesh.triangles[f];
     const double brightness = project.brightness(area_vector(mesh, t).stableNormalized());
     const std::array<Vec3, 3> corners{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
+    std::array<double, 3> edges{};
+    for (std::size_t k = 0; k < 3; ++k)
+      if (options.edges && (options.sides.empty() || options.sides[f][k])) edges[k] = edge;
     std::optional<Vec3> beyond;
     if (view.cut) {
       const auto [a, b, c] = corners;
       const Vec3& normal = view.cut->normal;
       beyond = Vec3(normal.dot(a), normal.dot(b), normal.dot(c)).array() - view.cut->offset;
     }
-    canvas.fill({project(corners[0]), project(corners[1]), project(corners[2])}, colours[f], brightness,
-                options.edges ? edge : 0, nearest, beyond);
+    canvas.fill({project(corners[0]), project(corners[1]), project(corners[2])}, colours[f], brightness, edges, nearest,
+                beyond);
   }
   if (options.ring) canvas.draw_ring(project(*options.ring), 0.06 * height, 1.5);
   return {.width = options.width, .height = options.height, .rgba = canvas.rgba()};

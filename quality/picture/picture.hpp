@@ -8,6 +8,7 @@
 #include "quality/picture/colour_maps.hpp"
 #include "quality/picture/raster.hpp"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -37,7 +38,9 @@ struct PictureView {
 struct PictureOptions {
   std::uint32_t width = 640, height = 480;  // pixels
   bool edges = false;                       // of the triangles
-  std::optional<Vec3> ring = {};            // a place to be ringed
+  // Per triangle whether the side across from each corner is an edge; all are where this is empty.
+  std::span<const std::array<bool, 3>> sides = {};
+  std::optional<Vec3> ring = {};  // a place to be ringed
 };
 
 // All of the mesh, from this direction, with a little room around. `aspect`: width over height of the picture.

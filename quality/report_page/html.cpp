@@ -33,18 +33,6 @@ std::string number(const Json& value, int digits) {
   return text;
 }
 
-const Json* find_figure(const Json& report, std::string_view name) {
-  const Json* at = &report;
-  while (!name.empty()) {
-    const std::size_t point = name.find('.');
-    const std::string key(name.substr(0, point));
-    if (!at->is_object() || !at->contains(key)) return nullptr;
-    at = &(*at)[key];
-    name = point == std::string_view::npos ? std::string_view{} : name.substr(point + 1);
-  }
-  return at;
-}
-
 std::string figure(const Json& report, std::string_view name, int digits) {
   const Json* value = find_figure(report, name);
   if (value == nullptr) return {};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "quality/escaped.hpp"
+#include "quality/figure_path.hpp"
 #include "quality/report.hpp"
 
 #include <nlohmann/json.hpp>
@@ -22,7 +23,6 @@ std::string number(const Json& value, int digits = 4);
 // test, finds what the text rounds. An empty text where the report has no such figure.
 std::string figure(const Json& report, std::string_view name, int digits = 4);
 std::string percent_figure(const Json& report, std::string_view name, int digits = 3);  // with the sign, see percent
-const Json* find_figure(const Json& report, std::string_view name);
 
 // "0.3 %"; what is nothing but rounding is 0, and a null, of what has no volume, is "not known".
 std::string percent(const Json& value, int digits = 3);

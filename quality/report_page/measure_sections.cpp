@@ -4,7 +4,6 @@
 #include "quality/report_page/page_sections.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <set>
 
@@ -13,42 +12,6 @@ namespace {
 
 using namespace html;
 using Beyond = MeasureLimit::Beyond;
-
-// What people look for first comes first.
-constexpr auto shown = std::to_array<std::string_view>({
-    "deviation.hausdorff_pct_diagonal",
-    "deviation.rms_pct_diagonal",
-    "deviation.from_mesh.hausdorff_pct_diagonal",
-    "deviation.from_reference.hausdorff_pct_diagonal",
-    "deviation.volume_difference_pct",
-    "deviation.area_difference_pct",
-    "points.largest_distance",
-    "points.rms_distance",
-    "surface.edge_ratio.mean",
-    "surface.edge_ratio.p95",
-    "surface.edge_ratio.max",
-    "surface.min_angle_deg.mean",
-    "surface.min_angle_deg.min",
-    "surface.max_angle_deg",
-    "surface.radius_ratio.mean",
-    "surface.self_intersections",
-    "surface.closed",
-    "surface.manifold",
-    "surface.components",
-    "surface.genus",
-    "surface.volume",
-    "surface.area",
-    "volume_mesh.scaled_jacobian.min",
-    "volume_mesh.scaled_jacobian.mean",
-    "volume_mesh.min_dihedral_deg",
-    "volume_mesh.max_dihedral_deg",
-    "volume_mesh.min_face_angle_deg",
-    "volume_mesh.max_face_angle_deg",
-    "volume_mesh.edge_ratio",
-    "volume_mesh.radius_edge_ratio",
-    "volume_mesh.inverted",
-    "volume_mesh.volume",
-});
 
 // Beside a share of the diagonal, what it is in model units.
 std::string in_model_units(const Json& report, const NamedFigure& measure, const Json& value) {
@@ -124,13 +87,6 @@ std::string unit_behind(const Json& report, const std::string& unit) {
   if (unit == "degrees") return "\u00b0";
   const int power = unit == "length" ? 1 : unit == "area" ? 2 : unit == "volume" ? 3 : 0;
   return "\u00a0" + (power > 0 ? unit_text(report, power) : escaped(unit));
-}
-
-std::vector<NamedFigure> shown_figures() {
-  const std::vector<NamedFigure> all = all_figures();
-  std::vector<NamedFigure> figures;
-  for (const std::string_view name : shown) figures.push_back(*std::ranges::find(all, name, &NamedFigure::name));
-  return figures;
 }
 
 std::string measures_section(const Json& report) {

@@ -58,11 +58,15 @@ std::string size_row(const Json& part) {
 std::string size_table(const Json& report) {
   Table table("Sizes",
               {"What", "#Vertices", "#Triangles", "#Box, " + unit_text(report), "#Diagonal, " + unit_text(report)});
+  const auto row = [&](const std::string& what, const Json& mesh) {
+    table.row({what, number(mesh["vertices"]), number(mesh["triangles"]), size_row(mesh), number(mesh["diagonal"], 6)});
+  };
+  if (const Json* scan = find_figure(report, "compared.reference"))
+    row("reference: what the comparison measures both from", *scan);
   if (report.contains("reference"))
-    table.row({report.contains("compared") ? "first mesh: what the second is measured from"
-                                           : "reference: what the figures compare with",
-               number(report["reference"]["vertices"]), number(report["reference"]["triangles"]),
-               size_row(report["reference"]), number(report["reference"]["diagonal"], 6)});
+    row(report.contains("compared") ? "first mesh: what the second is measured from"
+                                    : "reference: what the figures compare with",
+        report["reference"]);
   if (report.contains("size"))
     table.row({report.contains("compared") ? "surface of the second mesh" : "surface of the mesh",
                figure(report, "surface.vertices"), figure(report, "surface.faces"), size_row(report["size"]),

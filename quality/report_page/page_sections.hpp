@@ -6,7 +6,6 @@
 #include "quality/report.hpp"
 
 #include <string>
-#include <vector>
 
 namespace scan2fea {
 
@@ -18,9 +17,6 @@ std::string changes_section(const Json& report);     // what was lost and made u
 std::string sets_section(const Json& report);        // named faces and sets, bodies, contacts
 std::string stages_section(const Json& report);
 std::string origin_section(const Json& report);  // files, command, versions
-
-// Those of the tables of measures, in their order.
-std::vector<NamedFigure> shown_figures();
 
 // "mm", "mm\u00b2"; where the unit is not known, "model units".
 std::string unit_text(const Json& report, int power = 1);

@@ -36,11 +36,11 @@ std::optional<CloseUp> close_up(const Json& report) {
     if (!place[0].is_number()) return {};
     return CloseUp{Vec3(place[0], place[1], place[2]), title + ", at " + html::place(place)};
   };
-  if (const Json* farthest = html::find_figure(report, "deviation.farthest_point"))
+  if (const Json* farthest = find_figure(report, "deviation.farthest_point"))
     return at(*farthest, std::string("Where ") + (farthest_is_on_reference(report)
                                                       ? "a point of the reference is farthest from the mesh"
                                                       : "the mesh is farthest from the reference"));
-  const Json* worst = html::find_figure(report, "worst_elements.elements");
+  const Json* worst = find_figure(report, "worst_elements.elements");
   if (worst == nullptr || worst->empty()) return {};
   const bool is_volume = worst->front().contains("scaled_jacobian");
   return at(worst->front()["place"], (is_volume ? "The surface before the worst element, " : "The worst element, ") +

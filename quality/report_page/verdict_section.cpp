@@ -73,12 +73,16 @@ std::string distance_fact(const Json& report) {
   const bool is_on_reference = farthest_is_on_reference(report);
   const bool is_of_two = report.contains("compared");
   const std::string own = is_of_two ? "second mesh" : "mesh", first = is_of_two ? "first mesh" : "reference";
-  return fact("Farthest from the " + first, "at least " + distance_text(report, "deviation.hausdorff_pct_diagonal"),
-              "a point of the " + (is_on_reference ? first : own) + ", at " + place(at) + " " +
-                  show_button(is_on_reference ? "farthest-of-reference" : "farthest-of-mesh", "Show", at.dump()) +
-                  "<br>RMS " + distance_text(report, "deviation.rms_pct_diagonal") + "<br>volume " +
-                  percent_figure(report, "deviation.volume_difference_pct") + ", area " +
-                  percent_figure(report, "deviation.area_difference_pct"));
+  return fact(
+      "Farthest from the " + first, "at least " + distance_text(report, "deviation.hausdorff_pct_diagonal"),
+      "a point of the " + (is_on_reference ? first : own) +
+          (report["deviation"].value("farthest_is_on_filling", false) ? ", where a hole of the scan was closed, at "
+                                                                      : ", at ") +
+          place(at) + " " +
+          show_button(is_on_reference ? "farthest-of-reference" : "farthest-of-mesh", "Show", at.dump()) + "<br>RMS " +
+          distance_text(report, "deviation.rms_pct_diagonal") + "<br>volume " +
+          percent_figure(report, "deviation.volume_difference_pct") + ", area " +
+          percent_figure(report, "deviation.area_difference_pct"));
 }
 
 std::string worst_fact(const Json& report) {

@@ -204,6 +204,7 @@ ViewData view_data(const ViewInput& input) {
   if (!input.element_numbers.empty()) arrays.add_indices("element_numbers", input.element_numbers, 1);
   if (!shown.tetrahedra.empty()) add_elements("result.tetrahedra", shown.tetrahedra, arrays);
   description["result"] = {{"is_volume", input.volume_mesh != nullptr},
+                           {"is_curved", input.volume_mesh != nullptr && input.volume_mesh->order() == 2},
                            {"triangles", input.measures.faces.triangles.size()},
                            {"shown", shown.faces.size()},
                            {"is_thinned", shown.is_thinned},

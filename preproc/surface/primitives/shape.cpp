@@ -79,13 +79,16 @@ int degrees_of_freedom(ShapeKind kind) {
   return 0;
 }
 
+// Searches ask for little else than distances from planes.
 double Shape::signed_distance(const Vec3& p) const {
-  const AxialPlace at(*this, p);
-  const double d = profile(*this, at.distance, at.height).value;
+  const Vec3 q = p - origin;
+  const double height = q.dot(axis);
+  const double d = kind == ShapeKind::plane ? height : profile(*this, (q - height * axis).norm(), height).value;
   return hollow ? -d : d;
 }
 
 Vec3 Shape::normal(const Vec3& p) const {
+  if (kind == ShapeKind::plane) return hollow ? Vec3(-axis) : axis;
   const AxialPlace at(*this, p);
   const Profile f = profile(*this, at.distance, at.height);
   const Vec3 n = f.by_distance * at.outwards + f.by_height * axis;

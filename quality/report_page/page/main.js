@@ -15,12 +15,14 @@ function dropDeadLinks() {
     if (!document.querySelector(link.getAttribute('href'))) link.remove();
 }
 
-function tellWhatIsThinned(view) {
+function tellWhatTheViewLacks(view) {
   const lines = [];
   if (view.result.is_thinned)
     lines.push(`The view shows ${count(view.result.shown)} of the mesh's ${count(view.result.triangles)} triangles, thinned; figures, histograms and the list of the worst are of all.`);
   if (view.result.is_volume && view.result.tetrahedra_shown === 0)
     lines.push(`The ${count(view.result.tetrahedra)} tetrahedra are too many for a page: the cut shows the surface alone.`);
+  if (view.result.is_curved)
+    lines.push('Curved elements are drawn by their corners; figures are of the curves.');
   if (view.reference && view.reference.is_thinned)
     lines.push(`The reference is shown by ${count(view.reference.shown)} of its ${count(view.reference.triangles)} triangles, thinned.`);
   get('thinned').textContent = lines.join(' ');
@@ -154,7 +156,7 @@ async function start() {
   get('viewer').hidden = false;
   try {
     const page = new Page(report, description, await arrays(description.arrays));
-    tellWhatIsThinned(description);
+    tellWhatTheViewLacks(description);
     document.documentElement.dataset.ready = Math.round(performance.now());
     return page;
   } catch (error) {
