@@ -1,7 +1,7 @@
 #include "preproc/surface/reconstruction/minimum_cut.hpp"
 
 #include "preproc/surface/kernel/point_neighbours.hpp"
-#include "preproc/surface/reconstruction/winding_number.hpp"
+#include "preproc/surface/kernel/winding_number.hpp"
 #include "quality/validity.hpp"
 #include "tests/analytic_meshes.hpp"
 

@@ -4,8 +4,8 @@
 #include "preproc/mesh/union_find.hpp"
 #include "preproc/surface/kernel/components.hpp"
 #include "preproc/surface/kernel/parallel_blocks.hpp"
+#include "preproc/surface/kernel/winding_number.hpp"
 #include "preproc/surface/reconstruction/pinches.hpp"
-#include "preproc/surface/reconstruction/winding_number.hpp"
 
 #include <algorithm>
 #include <boost/graph/boykov_kolmogorov_max_flow.hpp>

@@ -30,8 +30,8 @@ enum class Crossings {
 // may have edges of four faces (where solids touch along an edge), and cracks as wide as rounding (where it left
 // slivers out of account).
 //
-// Costs the arrangement (see arrangement.hpp), two or three more where the first does not come out closed, and O(n) for
-// each piece that the crossings part the surface into.
+// Costs the arrangement (see arrangement.hpp), two or three more where the first does not come out closed, and
+// O(n log n).
 bool unite_crossings(SurfaceMesh& mesh, std::span<const FacePair> pairs, Crossings which, RepairResult& result);
 
 }  // namespace scan2fea

@@ -2,18 +2,21 @@
 
 #include "preproc/mesh/union_find.hpp"
 #include "preproc/surface/kernel/solid_angle.hpp"
+#include "preproc/surface/kernel/winding_number.hpp"
 #include "preproc/surface/repair/face_marks.hpp"
 #include "preproc/surface/repair/soup_adjacency.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace scan2fea {
 namespace {
 
 class Winding {
  public:
-  Winding(const SurfaceMesh& surface, const Arrangement& arrangement) : surface_(surface), arrangement_(arrangement) {}
+  Winding(const SurfaceMesh& surface, const Arrangement& arrangement)
+      : surface_(surface), arrangement_(arrangement), of_all_(surface.vertices, surface.triangles) {}
 
   Sides beside(std::uint32_t triangle) const {
     const std::uint32_t face = arrangement_.face_of[triangle];
@@ -27,12 +30,12 @@ class Winding {
     std::sort(here.begin(), here.end());
     here.erase(std::unique(here.begin(), here.end()), here.end());
 
-    double of_others = 0;
-    for (std::uint32_t f = 0; f < surface_.triangles.size(); ++f)
-      if (!std::binary_search(here.begin(), here.end(), f))
-        of_others += winding_of_triangle(surface_, surface_.triangles[f], p);
-    double step = 0;  // from outside to inside
-    for (const std::uint32_t f : here) step += normal.dot(area_vector(surface_, surface_.triangles[f])) > 0 ? 1 : -1;
+    // In its own plane a triangle's part is that of rounding, which is the same in the sum.
+    double of_others = of_all_(p), step = 0;  // from outside to inside
+    for (const std::uint32_t f : here) {
+      of_others -= winding_of_triangle(surface_, surface_.triangles[f], p);
+      step += normal.dot(area_vector(surface_, surface_.triangles[f])) > 0 ? 1 : -1;
+    }
     return {static_cast<int>(std::lround(of_others - step / 2)), static_cast<int>(std::lround(of_others + step / 2)),
             here.front() == face};
   }
@@ -53,6 +56,7 @@ class Winding {
 
   const SurfaceMesh& surface_;
   const Arrangement& arrangement_;
+  const WindingNumber of_all_;
 };
 
 bool is_sliver(const SurfaceMesh& mesh, std::uint32_t face, double width) {
@@ -65,16 +69,15 @@ bool is_sliver(const SurfaceMesh& mesh, std::uint32_t face, double width) {
 
 // The sides of a piece are those of most of these triangles of it: a spike, whose triangles are the largest, may pass
 // through its own shell, and slivers are too narrow to tell on which side of others they lie.
-std::vector<std::uint32_t> witnesses(const SurfaceMesh& mesh, std::vector<std::uint32_t> piece) {
+std::vector<std::uint32_t> witnesses(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& piece) {
   constexpr std::size_t most = 9;
-  std::sort(piece.begin(), piece.end(), [&](std::uint32_t a, std::uint32_t b) {
-    const double area_a = area_of(mesh, a), area_b = area_of(mesh, b);
-    return area_a != area_b ? area_a > area_b : a < b;
-  });
+  std::vector<std::pair<double, std::uint32_t>> by_area;
+  for (const std::uint32_t f : piece) by_area.emplace_back(-area_of(mesh, f), f);
+  std::sort(by_area.begin(), by_area.end());
   const std::size_t step = piece.size() / (2 * most);
-  if (step == 0) return {piece[0]};
+  if (step == 0) return {by_area[0].second};
   std::vector<std::uint32_t> some;
-  for (std::size_t i = 0; i < most; ++i) some.push_back(piece[i * step]);
+  for (std::size_t i = 0; i < most; ++i) some.push_back(by_area[i * step].second);
   return some;
 }
 

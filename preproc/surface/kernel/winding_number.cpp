@@ -1,4 +1,4 @@
-#include "preproc/surface/reconstruction/winding_number.hpp"
+#include "preproc/surface/kernel/winding_number.hpp"
 
 #include "preproc/surface/kernel/solid_angle.hpp"
 
