@@ -44,7 +44,6 @@ struct Surface {
     std::vector<char> met(m.vertices.size(), 0);
     for (const std::uint32_t t : tree.leaf_order())
       for (const std::uint32_t v : m.triangles[t]) meet(m.vertices, v, met);
-    for (std::uint32_t v = 0; v < met.size(); ++v) meet(m.vertices, v, met);
   }
 
   Surface(const FlatPieces& p, const TetMesh& of) : mesh(p.mesh), tree(p.mesh), pieces(&p), solid(&of) {
@@ -155,7 +154,7 @@ Deviation between(const Surface& own, const Surface& other, const DeviationOptio
   const Distances to_mesh = measure_side(other, own, options.samples, IndexedRandom(options.seed + 1));
   deviation.farthest_is_on_reference = to_mesh.largest_squared > to_reference.largest_squared;
   const Distances& worse = deviation.farthest_is_on_reference ? to_mesh : to_reference;
-  const double diagonal = bounding_box(other.mesh.vertices).diagonal();
+  const double diagonal = bounding_box(other.vertices).diagonal();
   deviation.hausdorff = std::sqrt(worse.largest_squared);
   deviation.farthest_point = worse.farthest;
   deviation.nearest_to_farthest = worse.nearest_to_it;

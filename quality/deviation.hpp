@@ -48,7 +48,8 @@ struct Deviation {
 };
 
 // Throws InvalidInput if one of the surfaces has no triangle or no area. About 0.5 us a sample and thread; the result
-// does not depend on the number of threads. Vertices that no triangle uses count: in a scan they are measured points.
+// does not depend on the number of threads. Vertices that no triangle uses, as the
+// invalid points of scanners, do not count.
 Deviation measure_deviation(const SurfaceMesh& mesh, const SurfaceMesh& reference,
                             const DeviationOptions& options = {});
 

@@ -108,12 +108,23 @@ bool bounds_below(const Gate& gate) {
 }
 
 bool replaces(const Gate& asked, const Gate& other) {
-  return asked.name == other.name &&
-         ((bounds_above(asked) && bounds_above(other)) || (bounds_below(asked) && bounds_below(other)));
+  return asked.name == other.name && (asked.of_magnitude || (bounds_above(asked) && bounds_above(other)) ||
+                                      (bounds_below(asked) && bounds_below(other)));
 }
 
 bool are_the_same(const Gate& a, const Gate& b) {
-  return a.name == b.name && a.comparison == b.comparison && a.limit == b.limit;
+  return a.shown_name() == b.shown_name() && a.comparison == b.comparison && a.limit == b.limit;
+}
+
+// Of abs(NAME) the name.
+std::optional<std::string_view> name_in_magnitude(std::string_view text) {
+  if (!text.starts_with("abs(") || !text.ends_with(")")) return std::nullopt;
+  return trimmed(text.substr(4, text.size() - 5));
+}
+
+// A sign that was turned round, as in edge_ratio.mean=<1.2.
+bool is_turned_sign(std::string_view text, std::size_t sign) {
+  return sign > 0 && text[sign - 1] == '=' && (text[sign] == '<' || text[sign] == '>');
 }
 
 }  // namespace
@@ -131,25 +142,40 @@ Gate parse_gate(std::string_view text) {
     return at != std::string_view::npos && text.substr(at).starts_with(o.sign);
   });
   const auto limit = sign == operators.end() ? std::nullopt : parse_limit(trimmed(text.substr(at + sign->sign.size())));
-  if (!limit)
+  if (!limit || is_turned_sign(text, at))
     throw WrongUsage({.what = "not a limit on a figure",
                       .where = "--require",
                       .value = std::string(text),
                       .limit = "a name, one of <= >= < > ==, and a number",
                       .advice = "--require \"edge_ratio.mean<=1.2\""});
-  return {full_name(trimmed(text.substr(0, at))), sign->comparison, *limit};
+  const std::string_view name = trimmed(text.substr(0, at));
+  const auto of_magnitude = name_in_magnitude(name);
+  Gate gate{full_name(of_magnitude.value_or(name)), sign->comparison, *limit};
+  gate.of_magnitude = of_magnitude.has_value();
+  return gate;
+}
+
+bool leaves_a_side_open(const Gate& gate, const std::vector<Gate>& among) {
+  const auto figure = find_figure_path(gate.name);
+  if (gate.of_magnitude || !figure || figure->schema == nullptr || !figure->schema->value("x-signed", false))
+    return false;
+  const bool above = bounds_above(gate), below = bounds_below(gate);
+  if (above == below || (above ? gate.limit < 0 : gate.limit > 0)) return false;
+  return std::ranges::none_of(among, [&](const Gate& other) {
+    return other.name == gate.name && (other.of_magnitude || (above ? bounds_below(other) : bounds_above(other)));
+  });
 }
 
 void refuse_contradictions(const std::vector<Gate>& gates) {
   for (const Gate& low : gates)
     for (const Gate& high : gates) {
-      if (low.name != high.name || !bounds_below(low) || !bounds_above(high)) continue;
+      if (low.shown_name() != high.shown_name() || !bounds_below(low) || !bounds_above(high)) continue;
       const bool is_met = holds(high.limit, low.comparison, low.limit) && holds(low.limit, high.comparison, high.limit);
       if (low.limit < high.limit || is_met) continue;
       throw WrongUsage({.what = "no value of a figure meets two gates on it",
                         .where = "--require",
-                        .value = low.name + std::string(sign_of(low.comparison)) + error_text(low.limit),
-                        .limit = high.name + std::string(sign_of(high.comparison)) + error_text(high.limit),
+                        .value = low.shown_name() + std::string(sign_of(low.comparison)) + error_text(low.limit),
+                        .limit = high.shown_name() + std::string(sign_of(high.comparison)) + error_text(high.limit),
                         .advice = "one of the two"});
     }
 }
@@ -172,6 +198,7 @@ std::vector<GateResult> evaluate_gates(const std::vector<Gate>& gates, const Jso
   for (const Gate& gate : gates) {
     require_section(gate, report);
     FigurePath figure = find_figure_path(gate.name, &report).value_or(FigurePath{});
+    if (gate.of_magnitude && figure.value) figure.value = std::abs(*figure.value);
     GateResult result{gate, figure.value, figure.value && holds(*figure.value, gate.comparison, gate.limit)};
     if (!figure.value) result.reason = figure.missing.empty() ? "the format has no such figure" : figure.missing;
     if (figure.value && figure.place && figure.place->is_array() && (*figure.place)[0].is_number())
@@ -189,7 +216,7 @@ bool all_pass(const std::vector<GateResult>& results) {
 Json to_json(const std::vector<GateResult>& results) {
   Json json = Json::array();
   for (const GateResult& result : results) {
-    Json entry{{"name", result.gate.name},
+    Json entry{{"name", result.gate.shown_name()},
                {"operator", sign_of(result.gate.comparison)},
                {"value", result.value ? Json(*result.value) : Json(nullptr)},
                {"limit", result.gate.limit},

@@ -17,8 +17,11 @@ struct Gate {
   std::string name;  // of the figure, in full: "surface.edge_ratio.mean"
   Comparison comparison;
   double limit;
-  std::string set = {};     // of --gates, that it is from; empty where it was asked for by itself
-  std::string source = {};  // of a set's limit
+  std::string set = {};       // of --gates, that it is from; empty where it was asked for by itself
+  std::string source = {};    // of a set's limit
+  bool of_magnitude = false;  // abs(NAME): of the figure without its sign
+
+  std::string shown_name() const { return of_magnitude ? "abs(" + name + ")" : name; }
 };
 
 struct GateResult {
@@ -30,11 +33,16 @@ struct GateResult {
   std::optional<std::uint64_t> element = {};      // that has the value, by its number in the file
 };
 
-// Of the form NAME OP LIMIT: any figure of the report by its name (figure_path.hpp), of the sections surface,
-// deviation, points and volume_mesh with or without the section's name where one of them alone has it; one of <= >= < >
+// Of the form NAME OP LIMIT, or abs(NAME) OP LIMIT: any figure of the report by its name (figure_path.hpp), of the
+// sections surface, deviation, points and volume_mesh with or without the section's name where one of them alone has
+// it; one of <= >= < >
 // ==; a number, or true or false. Throws WrongUsage if it is not that, naming the nearest figures where there is none
 // of the name.
 Gate parse_gate(std::string_view text);
+
+// Whether the gate bounds one side of a figure that may be on either side of 0, as a difference, and no other bounds
+// the other side: then a loss passes that is larger than the gain that does not.
+bool leaves_a_side_open(const Gate& gate, const std::vector<Gate>& among);
 
 // Throws WrongUsage where no value meets both of two gates on one figure.
 void refuse_contradictions(const std::vector<Gate>& gates);

@@ -1,6 +1,7 @@
 #include "quality/signed_deviation.hpp"
 
 #include "quality/curved_surface.hpp"
+#include "quality/validity.hpp"
 
 #include <tbb/parallel_for.h>
 
@@ -15,6 +16,15 @@
 
 namespace scan2fea {
 namespace {
+
+// -1 where what the mesh encloses lies on the side of its normals.
+double outward_sign(const SurfaceMesh& mesh) {
+  return enclosed_volume(mesh) < 0 && encloses_volume(mesh) ? -1 : 1;
+}
+
+double outward_sign(const TetMesh& mesh) {
+  return total_volume(mesh) < 0 ? -1 : 1;
+}
 
 // Of places near one another, each answer is where the search for the next one begins.
 class SignedDistances {
@@ -69,9 +79,9 @@ std::vector<double> deviations_along(const std::vector<Vec3>& nodes, const std::
   return deviations;
 }
 
-// `face`: per triangle, which of so many faces it is of.
+// `face`: per triangle, which of so many faces it is of. `sign`: see outward_sign.
 std::vector<double> means_of_points(const std::vector<Vec3>& points, const SurfaceMesh& mesh,
-                                    std::span<const std::uint32_t> face, std::size_t faces) {
+                                    std::span<const std::uint32_t> face, std::size_t faces, double sign) {
   const TriangleTree tree(mesh);
   std::vector<ClosestPoint> nearest(points.size());
   for_each_near_the_last(points.size(), tree,
@@ -80,7 +90,7 @@ std::vector<double> means_of_points(const std::vector<Vec3>& points, const Surfa
   std::vector<std::size_t> counts(faces, 0);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const ClosestPoint& found = nearest[i];
-    const Vec3 outward = area_vector(mesh, mesh.triangles[found.triangle]);
+    const Vec3 outward = sign * area_vector(mesh, mesh.triangles[found.triangle]);
     means[face[found.triangle]] +=
         std::copysign(std::sqrt(found.squared_distance), outward.dot(found.point - points[i]));
     ++counts[face[found.triangle]];
@@ -93,15 +103,17 @@ std::vector<double> means_of_points(const std::vector<Vec3>& points, const Surfa
 
 std::vector<double> signed_deviations_of_nodes(const SurfaceMesh& mesh, const TriangleTree& reference) {
   std::vector<Vec3> normals(mesh.vertices.size(), Vec3::Zero());
+  const double sign = outward_sign(mesh);
   for (const Triangle& t : mesh.triangles)
-    for (const std::uint32_t v : t) normals[v] += area_vector(mesh, t);
+    for (const std::uint32_t v : t) normals[v] += sign * area_vector(mesh, t);
   return deviations_along(mesh.vertices, normals, reference);
 }
 
 std::vector<double> signed_deviations_of_nodes(const TetMesh& mesh, const TriangleTree& reference) {
   std::vector<Vec3> normals(mesh.nodes.size(), Vec3::Zero());
+  const double sign = outward_sign(mesh);
   for (std::size_t f = 0; f < mesh.outer_faces(); ++f) {
-    const Vec3 area = face_vector_area(mesh, mesh.boundary[f]);
+    const Vec3 area = sign * face_vector_area(mesh, mesh.boundary[f]);
     for (const std::uint32_t n : boundary_triangle(mesh, mesh.boundary[f])) normals[n] += area;
     if (mesh.order() == 2)
       for (const std::uint32_t n : boundary_mid_edge_nodes(mesh, mesh.boundary[f])) normals[n] += area;
@@ -111,9 +123,10 @@ std::vector<double> signed_deviations_of_nodes(const TetMesh& mesh, const Triang
 
 std::vector<double> signed_deviations(const SurfaceMesh& mesh, const TriangleTree& reference) {
   std::vector<double> deviations(mesh.triangles.size());
+  const double sign = outward_sign(mesh);
   for_each_near_the_last(deviations.size(), reference, [&](std::size_t f, SignedDistances& distances) {
     const auto& [a, b, c] = mesh.triangles[f];
-    const Vec3 outward = area_vector(mesh, mesh.triangles[f]);
+    const Vec3 outward = sign * area_vector(mesh, mesh.triangles[f]);
     for (const auto& [at, weight] : places)
       deviations[f] +=
           weight *
@@ -124,11 +137,12 @@ std::vector<double> signed_deviations(const SurfaceMesh& mesh, const TriangleTre
 
 std::vector<double> signed_deviations(const TetMesh& mesh, const TriangleTree& reference) {
   std::vector<double> deviations(mesh.outer_faces());
+  const double sign = outward_sign(mesh);
   for_each_near_the_last(deviations.size(), reference, [&](std::size_t f, SignedDistances& distances) {
     const SixNodeTriangle nodes = boundary_face_nodes(mesh, mesh.boundary[f]);
     for (const auto& [at, weight] : places) {
       const auto [u, v] = tangents(nodes, at);
-      deviations[f] += weight * distances.from(point_on(nodes, at), u.cross(v));
+      deviations[f] += weight * distances.from(point_on(nodes, at), sign * u.cross(v));
     }
   });
   return deviations;
@@ -137,10 +151,11 @@ std::vector<double> signed_deviations(const TetMesh& mesh, const TriangleTree& r
 std::vector<double> signed_deviations_of_reference(const SurfaceMesh& reference, const SurfaceMesh& mesh,
                                                    const TriangleTree& tree) {
   std::vector<double> of_vertices(reference.vertices.size());
+  const double sign = outward_sign(mesh);
   for_each_near_the_last(of_vertices.size(), tree, [&](std::size_t v, SignedDistances& distances) {
     const Vec3& place = reference.vertices[v];
     const ClosestPoint nearest = distances.nearest(place);
-    const Vec3 outward = area_vector(mesh, mesh.triangles[nearest.triangle]);
+    const Vec3 outward = sign * area_vector(mesh, mesh.triangles[nearest.triangle]);
     of_vertices[v] = std::copysign(std::sqrt(nearest.squared_distance), outward.dot(nearest.point - place));
   });
   std::vector<double> deviations;
@@ -153,14 +168,14 @@ std::vector<double> signed_deviations_of_reference(const SurfaceMesh& reference,
 std::vector<double> signed_deviations_from_points(const std::vector<Vec3>& points, const SurfaceMesh& mesh) {
   std::vector<std::uint32_t> itself(mesh.triangles.size());
   std::iota(itself.begin(), itself.end(), 0U);
-  return means_of_points(points, mesh, itself, mesh.triangles.size());
+  return means_of_points(points, mesh, itself, mesh.triangles.size(), outward_sign(mesh));
 }
 
 std::vector<double> signed_deviations_from_points(const std::vector<Vec3>& points, const TetMesh& mesh) {
   const std::span outer(mesh.boundary.data(), mesh.outer_faces());
   if (mesh.order() == 2) {
     const FlatPieces flat = flat_pieces(mesh, outer, flat_enough_of_diagonal * bounding_box(points).diagonal());
-    return means_of_points(points, flat.mesh, flat.of_piece, outer.size());
+    return means_of_points(points, flat.mesh, flat.of_piece, outer.size(), outward_sign(mesh));
   }
   return signed_deviations_from_points(points, outer_corner_faces(mesh));
 }

@@ -12,7 +12,8 @@ namespace scan2fea {
 // Model units. Of a triangle the mean, by the rule of seven points (corners, middles of edges, its own middle) that is
 // exact for polynomials of third degree: where chords lie inside of a round and their ends outside, it is about 0, as
 // an engineer expects of a mesh that lies in its scan; how far single points lie is what measure_deviation says.
-// Positive: the mesh lies outside of the reference, by the normals of the mesh, since those of a scan may be anything.
+// Positive: the mesh lies outside of the reference, by the normals of the mesh, since those of a scan may be anything;
+// where it encloses a volume, by which side is outside, since those of somebody else's mesh may be anything, too.
 // O(n log n), parallel; the same for any number of threads.
 
 // Per triangle of the mesh. Precondition: it has an area.

@@ -108,10 +108,13 @@ std::vector<FaceSurroundings> surroundings_of(const SurfaceMesh& mesh, const std
 
 std::string cause_of(const TriangleShape& shape, const FaceSurroundings& around) {
   constexpr double obtuse_deg = 110, crease_deg = 140;  // 140: bent by 40, as the edges that are kept by default
-  const std::string kind = shape.max_angle_deg > obtuse_deg
+  // Edges are as the sines of the angles across from them: one of a needle is far shorter than both others.
+  const double middle_deg = 180 - shape.min_angle_deg - shape.max_angle_deg;
+  const bool is_needle = std::sin(middle_deg / degrees) > 2 * std::sin(shape.min_angle_deg / degrees);
+  const std::string kind = is_needle ? "a needle, with one short edge"
+                           : shape.max_angle_deg > obtuse_deg
                                ? "a cap, with a corner of " + degrees_text(shape.max_angle_deg)
-                           : shape.edge_ratio > 2 ? "a needle, with one short edge"
-                                                  : "beside others of the wanted shape";
+                               : "beside others of the wanted shape";
   if (around.neighbours < 3) return kind + "; at an open border";
   if (around.sharpest_deg < crease_deg)
     return kind + "; along an edge where the surface is bent to " + degrees_text(around.sharpest_deg);

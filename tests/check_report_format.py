@@ -27,7 +27,7 @@ except ImportError:
 formats = {
     "scan2fea/2": "32f7bc33682e569d8f094d26ec03704aa3d03b5160602dae87d9cf171aeab045",
     "scan2fea/3": "756478214f0dbe022e285fa58727734eb02dafec2929f611e401f663247c956e",
-    "scan2fea/4": "82ef923ee90810bf9ae9b61abc2e23611bbf4dcd41e09cc766e58248a8f95226",
+    "scan2fea/4": "8fb091ccfef85fa6e28e93c92b0f85b6830110809d0481c04cb117d31a8382b3",
 }
 
 

@@ -32,6 +32,17 @@ TEST(Deviation, OfConcentricSpheres) {
   EXPECT_NEAR(deviation.area_difference_pct, 21, 1e-9);
 }
 
+// A scanner's invalid points, at the origin of a part that lies elsewhere.
+TEST(Deviation, VerticesOfNoTriangleDoNotCount) {
+  SurfaceMesh ball = analytic::sphere(1, 3);
+  for (Vec3& p : ball.vertices) p.x() += 30;
+  SurfaceMesh with_more = ball;
+  with_more.vertices.push_back(Vec3::Zero());
+  for (const auto& [mesh, reference] : {std::pair(ball, with_more), std::pair(with_more, ball)})
+    EXPECT_EQ(measure_deviation(mesh, reference, few_samples).hausdorff,
+              measure_deviation(ball, ball, few_samples).hausdorff);
+}
+
 TEST(Deviation, PercentagesAreOfTheReference) {
   const SurfaceMesh inner = analytic::sphere(1, 3), outer = analytic::sphere(2, 3);
   const Deviation grown = measure_deviation(outer, inner, few_samples);

@@ -2,6 +2,7 @@
 #include "preproc/surface/faces/find_faces.hpp"
 #include "preproc/surface/kernel/adjacency.hpp"
 #include "tests/analytic_meshes.hpp"
+#include "tests/assemblies.hpp"
 #include "tests/machined_part.hpp"
 
 #include <gmock/gmock.h>
@@ -123,6 +124,21 @@ TEST(Faces, OfABoxAreSixPlanes) {
   EXPECT_NEAR(faces.list[0].area, 20, 1e-9);
   EXPECT_NEAR(faces.list[5].area, 12, 1e-9);
   EXPECT_LT(faces.list[0].place.x(), faces.list[1].place.x());
+}
+
+// A shoulder between two cylinders, from nearly plane to steep: creases all around it make it a face of its own.
+TEST(Faces, OfATurnedPartAreThoseOfItsProfile) {
+  for (const double top : {10.5, 12.0, 14.0, 20.0}) {
+    const SurfaceMesh part = analytic::revolved(
+        analytic::divided({{8, 0}, {30, 0}, {30, 10}, {18, top}, {18, 40}, {8, 40}}, 1.5, true), 120);
+    const SurfaceFaces faces = find_faces(part);
+    ASSERT_EQ(faces.list.size(), 6U) << top;
+    const double area = std::numbers::pi * 48 * std::hypot(12, top - 10);
+    const auto shoulder =
+        std::ranges::find_if(faces.list, [&](const SurfaceFace& f) { return std::abs(f.area - area) < 0.001 * area; });
+    ASSERT_NE(shoulder, faces.list.end()) << top;
+    if (top > 11) EXPECT_EQ(kind_of(*shoulder), "cone") << top;  // a shallow one is a sphere as well
+  }
 }
 
 TEST(Faces, OfABallAreOneSphere) {

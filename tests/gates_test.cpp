@@ -1,6 +1,7 @@
 #include "quality/gates.hpp"
 
 #include "preproc/mesh/error.hpp"
+#include "quality/deviation.hpp"
 #include "tests/analytic_meshes.hpp"
 #include "tests/error_from.hpp"
 
@@ -35,6 +36,36 @@ TEST(Gates, EveryOperator) {
   EXPECT_FALSE(passes("surface.faces>12", box));
   EXPECT_TRUE(passes("surface.faces==12", box));
   EXPECT_FALSE(passes("surface.faces==13", box));
+}
+
+// A ball of 0.99 of the radius has lost 3 % of the volume: no more than 0.1 %, were it not for the sign.
+TEST(Gates, MagnitudesBoundBothSides) {
+  Report report;
+  report.surface = measure_surface(analytic::sphere(9.9, 3));
+  report.deviation = measure_deviation(analytic::sphere(9.9, 3), analytic::sphere(10, 3));
+  const Json shrunk = to_json(report);
+  EXPECT_TRUE(passes("volume_difference_pct<=0.1", shrunk));
+  EXPECT_FALSE(passes("abs(volume_difference_pct)<=0.1", shrunk));
+  EXPECT_TRUE(passes("abs( deviation.volume_difference_pct ) <= 3", shrunk));
+  EXPECT_EQ(to_json(evaluate_gates({parse_gate("abs(volume_difference_pct)<=3")}, shrunk))[0]["name"],
+            "abs(deviation.volume_difference_pct)");
+  const Gate bound = parse_gate("abs(volume_difference_pct)<=0.1");
+  for (const char* paper : {"volume_difference_pct<=0.8", "volume_difference_pct>=-0.8"})
+    EXPECT_EQ(combined({bound}, {parse_gate(paper)}).size(), 1U) << paper;
+}
+
+TEST(Gates, OneSideOfADifferenceAloneIsNoticed) {
+  const auto is_open = [](std::vector<std::string> texts) {
+    std::vector<Gate> gates;
+    for (const std::string& text : texts) gates.push_back(parse_gate(text));
+    return leaves_a_side_open(gates.front(), gates);
+  };
+  EXPECT_TRUE(is_open({"volume_difference_pct<=0.1"}));
+  EXPECT_TRUE(is_open({"volume_difference_pct>=-0.1", "area_difference_pct<=1"}));
+  EXPECT_FALSE(is_open({"volume_difference_pct<=0.1", "volume_difference_pct>=-0.5"}));
+  EXPECT_FALSE(is_open({"abs(volume_difference_pct)<=0.1"}));
+  EXPECT_FALSE(is_open({"volume_difference_pct<=-0.1"}));  // that something was taken away
+  EXPECT_FALSE(is_open({"edge_ratio.mean<=1.2"}));
 }
 
 TEST(Gates, AFailedGateFailsTheWhole) {
@@ -145,7 +176,7 @@ TEST(Gates, ANameThatIsAGroupElsewhereIsAmbiguous) {
 
 TEST(Gates, WhatIsNoGateIsRefused) {
   for (const char* text : {"", "edge_ratio.mean", "edge_ratio.mean<=", "<=1", "edge_ratio.mean<=1.2x",
-                           "edge_ratio.mean=1", "edge_ratio.mean<=nan", "edge_ratio.mean<=inf",
+                           "edge_ratio.mean=1", "edge_ratio.mean=<1", "edge_ratio.mean<=nan", "edge_ratio.mean<=inf",
                            "edge_ratio.mean<=1e999", "edge_ratio.mean<==1", "edge_ratio.mean<=1,2"})
     EXPECT_THROW(parse_gate(text), WrongUsage) << text;
 }

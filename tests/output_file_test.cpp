@@ -147,8 +147,11 @@ TEST(OutputFile, FilesOfOneOutputArePutInPlaceTogether) {
   of_a_writer.commit();
   EXPECT_FALSE(std::filesystem::exists(folder / "nodes"));
   EXPECT_EQ(contents(all.begin()->readable_path()), "1");
+  write_text(folder / "of an earlier mesh", "");
+  all.remove(folder / "of an earlier mesh");
   all.commit();
   EXPECT_EQ(contents(folder / "nodes") + contents(folder / "elements"), "12");
+  EXPECT_EQ(files_in(folder), 2u);
 }
 
 TEST(OutputFile, RefusesAMissingFolder) {

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace scan2fea {
 namespace {
@@ -104,10 +105,13 @@ ElementColours colours_of(double low, double high, const std::vector<double>& va
 // The bar has at each height the colour that a value there has.
 TEST(Legend, TellsTheColourOfAValue) {
   const ElementColours colours = colours_of(-2, 2, {-2, -1, 0, 1, 2});
-  const Raster picture{.width = 100, .height = 420, .rgba = std::vector<std::uint8_t>(100 * 420 * 4, 0)};
-  Raster raster = with_legend(picture, colours.legend);
-  ASSERT_EQ(raster.width, 100 + legend_width(colours.legend, 420));
-  const std::uint32_t x = 110;  // in the bar
+  constexpr std::uint32_t width = 500;
+  const std::uint32_t beside = legend_width(colours.legend, width, 420);
+  Raster picture{.width = width - beside, .height = 420, .rgba = {}};
+  picture.rgba.assign(std::size_t{4} * picture.width * picture.height, 0);
+  Raster raster = with_legend(picture, colours.legend, width);
+  ASSERT_EQ(raster.width, width);
+  const std::uint32_t x = picture.width + 10;  // in the bar
   std::vector<std::uint32_t> in_bar;
   for (std::uint32_t y = 0; y < raster.height; ++y)
     if (raster.pixel(x, y)[0] != 255 || raster.pixel(x, y)[2] != 255) in_bar.push_back(y);
@@ -119,6 +123,11 @@ TEST(Legend, TellsTheColourOfAValue) {
   }
 }
 
+TEST(Legend, SaysWhereValuesAreMissing) {
+  EXPECT_FALSE(colours_of(-2, 2, {-2, 0, 2}).legend.has_gaps);
+  EXPECT_TRUE(colours_of(-2, 2, {-2, std::numeric_limits<double>::quiet_NaN(), 2}).legend.has_gaps);
+}
+
 TEST(Legend, IsOpenWhereValuesLieBeyondIt) {
   EXPECT_FALSE(colours_of(-2, 2, {-2, 0, 2}).legend.is_open);
   EXPECT_TRUE(colours_of(-2, 2, {-2, 0, 2.1}).legend.is_open);
@@ -128,7 +137,7 @@ TEST(Legend, HasAsManyNamesAsThereIsRoomFor) {
   Legend legend{.title = "Set of faces"};
   for (int i = 0; i < 100; ++i) legend.names.push_back({"FACE_" + std::to_string(i), i % 2 == 0 ? red : blue});
   const Raster picture{.width = 10, .height = 200, .rgba = std::vector<std::uint8_t>(10 * 200 * 4, 0)};
-  Raster raster = with_legend(picture, legend);
+  Raster raster = with_legend(picture, legend, 10 + legend_width(legend, 200, 200));
   for (std::uint32_t x = 0; x < raster.width; ++x) {
     const std::uint8_t* last = raster.pixel(x, raster.height - 1);
     EXPECT_TRUE(last[0] == 255 && last[1] == 255 && last[2] == 255) << "nothing is cut off below";

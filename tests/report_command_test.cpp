@@ -125,6 +125,39 @@ TEST_F(ReportCommand, ThatTheFarthestPointIsOnAFillingIsTold) {
   EXPECT_EQ(run_ball("ball.inp")["deviation"]["farthest_is_on_filling"], false);
 }
 
+TEST_F(ReportCommand, OfAMeshThatIsInsideOutSaysSo) {
+  SurfaceMesh ball = analytic::sphere(10, 3);
+  for (Triangle& t : ball.triangles) std::swap(t[0], t[1]);
+  write_surface(ball, path("in.ply"));
+  ASSERT_EQ(run_command("check " + quoted("in.ply") + " --report " + quoted("r")).exit_code, 0);
+  EXPECT_THAT(contents(path("r/report.html")), HasSubstr("The surface has faults: inside out"));
+}
+
+TEST_F(ReportCommand, NamesMayBeAnyBytes) {
+  write_ball(
+      "gr\xf6\xdf"
+      "e.ply");
+  ASSERT_EQ(run_command("check " +
+                        quoted("gr\xf6\xdf"
+                               "e.ply") +
+                        " --report " + quoted("r"))
+                .exit_code,
+            0);
+  EXPECT_THAT(json::parse(contents(path("r/report.json")))["input"].get<std::string>(), HasSubstr("e.ply"));
+}
+
+// What is not written anew would be of another mesh.
+TEST_F(ReportCommand, APdfOfAnEarlierReportGoes) {
+  write_ball("ball.ply");
+  std::filesystem::create_directory(path("r"));
+  write_text(path("r/report.pdf"), "old");
+  const std::string check = "check " + quoted("ball.ply") + " --report " + quoted("r");
+  EXPECT_EQ(run_command(check).exit_code, 6);
+  EXPECT_EQ(contents(path("r/report.pdf")), "old");
+  EXPECT_EQ(run_command(check + " --force").exit_code, 0);
+  EXPECT_FALSE(std::filesystem::exists(path("r/report.pdf")));
+}
+
 TEST_F(ReportCommand, TheJsonOfAReportIsThatOfTheFlag) {
   write_ball("ball.ply");
   ASSERT_EQ(

@@ -77,6 +77,26 @@ TEST(SignedDeviation, TakesItsSignFromTheMesh) {
   for (const double d : signed_deviations(larger, TriangleTree(turned))) EXPECT_GT(d, 0.9);
 }
 
+// A mesh of somebody else's may be inside out: what lies outside of the reference still does.
+TEST(SignedDeviation, OfAMeshThatIsInsideOutHasTheSameSign) {
+  const SurfaceMesh ball = analytic::sphere(10, 3);
+  SurfaceMesh larger = scaled(ball, 1.05);
+  for (Triangle& t : larger.triangles) std::swap(t[0], t[1]);
+  const TriangleTree tree(ball);
+  for (const double d : signed_deviations(larger, tree)) EXPECT_GT(d, 0.4);
+  for (const double d : signed_deviations_of_nodes(larger, tree)) EXPECT_GT(d, 0.4);
+  for (const double d : signed_deviations_of_reference(ball, larger, TriangleTree(larger))) EXPECT_GT(d, 0.4);
+  for (const double d : signed_deviations_from_points(ball.vertices, larger))
+    if (!std::isnan(d)) EXPECT_GT(d, 0.4);
+  TetMesh cube = analytic::tetrahedra_of_box({2, 2, 2}, {2, 2, 2}, 1);
+  for (Vec3& p : cube.nodes) p = 1.1 * (p - Vec3::Ones());
+  for (Tetrahedron& t : cube.tetrahedra) std::swap(t[0], t[1]);
+  cube.boundary = find_boundary(cube.tetrahedra);
+  SurfaceMesh smaller = analytic::box({2, 2, 2}, 1);
+  for (Vec3& p : smaller.vertices) p -= Vec3::Ones();
+  for (const double d : signed_deviations(cube, TriangleTree(smaller))) EXPECT_NEAR(d, 0.1, 0.05);
+}
+
 TEST(SignedDeviation, OfNodesIsTheirOwn) {
   const SurfaceMesh ball = analytic::sphere(10, 3);
   const TriangleTree tree(ball);

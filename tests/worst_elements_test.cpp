@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <span>
 
 namespace scan2fea {
 namespace {
@@ -73,10 +74,15 @@ TEST(WorstElements, NeedlesAndCapsAreToldApart) {
   const auto flat = static_cast<std::uint32_t>(box.triangles.size());
   const auto v = static_cast<std::uint32_t>(box.vertices.size());
   box.vertices.insert(box.vertices.end(), {Vec3(9, 0, 0), Vec3(10, 0, 0), Vec3(9.5, 0.05, 0), Vec3(10, 0.02, 0)});
+  const auto w = static_cast<std::uint32_t>(box.vertices.size());
+  box.vertices.insert(box.vertices.end(), {Vec3(9, 1, 0), Vec3(9.8, 1, 0), Vec3(9.8001, 1.00013, 0)});
   box.triangles.push_back({v, v + 1, v + 2});
   box.triangles.push_back({v, v + 1, v + 3});
-  const auto worst = worst_triangles(measure_elements(box, nullptr), 2);
-  ASSERT_EQ(worst.size(), 2U);
+  box.triangles.push_back({w, w + 1, w + 2});  // a needle with a corner of 128 degrees
+  const auto all = worst_triangles(measure_elements(box, nullptr), 3);
+  ASSERT_EQ(all.size(), 3U);
+  EXPECT_THAT(all[0].cause, HasSubstr("needle"));
+  const std::span worst(all.data() + 1, 2);
   EXPECT_EQ(worst[0].index, flat + 1);
   EXPECT_THAT(worst[0].cause, HasSubstr("needle"));
   EXPECT_THAT(worst[0].cause, HasSubstr("open border"));

@@ -1,11 +1,13 @@
 #include "export/formats.hpp"
 #include "export/units.hpp"
+#include "preproc/command/console.hpp"
 #include "preproc/command/expected_stages.hpp"
 #include "preproc/command/figures.hpp"
 #include "preproc/command/gates_asked.hpp"
 #include "preproc/command/loaded_mesh.hpp"
 #include "preproc/command/option_text.hpp"
 #include "preproc/command/output_files.hpp"
+#include "preproc/command/piped_files.hpp"
 #include "preproc/command/sub_commands.hpp"
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/error_text.hpp"
@@ -74,6 +76,8 @@ int check(CheckFlags flags) {
   if (!unit.empty()) flags.common.unit = unit;
   const std::vector<Gate> gates = gates_for(asked, mesh.volume_mesh.has_value());
   display.line(describe_input(mesh.surface, flags.common));
+  if (const auto doubt = implausible_size(bounding_box(mesh.surface.vertices).diagonal(), unit); doubt && !unit.empty())
+    warn(shown_name(flags.common.input) + ": " + *doubt);
   const LoadedReference reference = load_references(flags.references, unit, flags.common.caller);
   Subject subject = subject_of(mesh);
   compare_with(reference, subject);

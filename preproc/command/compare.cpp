@@ -31,6 +31,7 @@ Json column(const LoadedMesh& mesh, const std::filesystem::path& file, const Com
 
 int compare(CompareFlags flags) {
   const AskedGates asked = parse_gates(flags.common);
+  require_no_pipe(flags.second);
   std::vector<std::filesystem::path> inputs = inputs_of(flags.common);
   inputs.push_back(flags.second);
   if (flags.reference) inputs.push_back(*flags.reference);

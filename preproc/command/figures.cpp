@@ -174,14 +174,28 @@ Json box_of(const std::vector<Vec3>& points) {
   return {{"box", point_json(box.high - box.low)}, {"diagonal", box.diagonal()}};
 }
 
+// Of what triangles use: a scanner's invalid points may be anywhere.
+Json box_of(const SurfaceMesh& mesh) {
+  std::vector<bool> is_used(mesh.vertices.size(), false);
+  for (const Triangle& t : mesh.triangles)
+    for (const std::uint32_t v : t) is_used[v] = true;
+  std::vector<Vec3> points;
+  for (std::size_t v = 0; v < is_used.size(); ++v)
+    if (is_used[v]) points.push_back(mesh.vertices[v]);
+  return box_of(points);
+}
+
 // What a file of figures says beside those that a terminal is told.
 void add_origin(const Subject& subject, const CommonFlags& flags, Json& report) {
   report["program"] = program_json();
   report["command"] = command_json(flags.caller != nullptr ? flags.caller->arguments : arguments_of_process());
   report["inputs"] = inputs_json(subject.inputs);
   if (!subject.written.empty()) report["outputs"] = outputs_json(subject.written);
-  if (subject.surface != nullptr) report["size"] = box_of(subject.surface->vertices);
-  if (subject.reference != nullptr) report["reference"] = extent_of(*subject.reference);
+  if (subject.surface != nullptr) report["size"] = box_of(*subject.surface);
+  if (subject.reference != nullptr)
+    report["reference"] = extent_of(*subject.reference);
+  else if (subject.cloud != nullptr)
+    report["reference"] = extent_of(subject.cloud->points);
 }
 
 std::string size_text(const std::vector<Vec3>& points, const CommonFlags& flags) {
@@ -194,8 +208,15 @@ std::string size_text(const std::vector<Vec3>& points, const CommonFlags& flags)
 
 }  // namespace
 
+Json extent_of(const std::vector<Vec3>& points) {
+  Json extent = box_of(points);
+  extent["vertices"] = points.size();
+  extent["triangles"] = 0;
+  return extent;
+}
+
 Json extent_of(const SurfaceMesh& mesh) {
-  Json extent = box_of(mesh.vertices);
+  Json extent = box_of(mesh);
   extent["vertices"] = mesh.vertices.size();
   extent["triangles"] = mesh.triangles.size();
   return extent;

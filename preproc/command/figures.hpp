@@ -39,8 +39,9 @@ struct Subject {
   Json compared = {};                                // of `compare`, both meshes' figures
 };
 
-// The box of points, its diagonal, and how many vertices and triangles the mesh has.
+// The box of what triangles use, its diagonal, and how many vertices and triangles the mesh has; or of points.
 Json extent_of(const SurfaceMesh& mesh);
+Json extent_of(const std::vector<Vec3>& points);
 
 // All figures but those of single elements, without gates.
 Json measure(const Subject& subject, const CommonFlags& flags);

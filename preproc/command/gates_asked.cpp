@@ -36,7 +36,7 @@ void find_place(const Subject& subject, GateResult& result) {
 
 std::string describe(const GateResult& result) {
   const Gate& gate = result.gate;
-  std::string text = "gate failed: " + gate.name;
+  std::string text = "gate failed: " + gate.shown_name();
   if (result.value)
     text += " is " + error_text(*result.value);
   else
@@ -55,6 +55,10 @@ AskedGates parse_gates(const CommonFlags& flags) {
   AskedGates asked;
   for (const std::string& text : flags.require) asked.gates.push_back(parse_gate(text));
   refuse_contradictions(asked.gates);
+  for (const Gate& gate : asked.gates)
+    if (leaves_a_side_open(gate, asked.gates) && !flags.quiet)
+      warn("--require " + gate.name + std::string(sign_of(gate.comparison)) + error_text(gate.limit) +
+           ": the figure has a sign, and the other side is not bounded; abs(" + gate.name + ") bounds both");
   for (const std::string& set : flags.gates)
     if (std::ranges::find(asked.sets, set) == asked.sets.end()) asked.sets.push_back(set);
   if (flags.junit && asked.gates.empty() && asked.sets.empty())

@@ -3,6 +3,7 @@
 #include "export/formats.hpp"
 #include "export/units.hpp"
 #include "preproc/command/body_inputs.hpp"
+#include "preproc/command/piped_files.hpp"
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/read_cloud.hpp"
 #include "preproc/surface/repair/solid_volume.hpp"
@@ -21,6 +22,7 @@ double volume_of_bodies(const std::vector<Body>& bodies) {
 }
 
 LoadedReference load_reference(const std::filesystem::path& file) {
+  require_no_pipe(file);
   if (find_format(file) != nullptr && find_format(file)->volume) return reference_of(load_mesh(file));
   NamedScan scan = read_named_scan(file);
   LoadedReference reference;
@@ -37,6 +39,15 @@ LoadedReference load_reference(const std::filesystem::path& file) {
 }
 
 }  // namespace
+
+void require_no_pipe(const std::filesystem::path& file) {
+  if (!is_pipe(file)) return;
+  throw WrongUsage({.what = "only the input may come through a pipe",
+                    .where = {},
+                    .value = file.string(),
+                    .limit = {},
+                    .advice = "a file for what it is compared with"});
+}
 
 LoadedMesh load_mesh(const std::filesystem::path& file) {
   return loaded(read_mesh(file), first_element_of(file));

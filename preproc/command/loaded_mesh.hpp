@@ -23,6 +23,9 @@ struct LoadedMesh {
   std::string unit;                            // that the file says; empty where it says none
 };
 
+// Throws WrongUsage for what comes through a pipe: that is the input, and can be read once.
+void require_no_pipe(const std::filesystem::path& file);
+
 LoadedMesh load_mesh(const std::filesystem::path& file);
 // Of what was read, or is in memory, whose elements are counted from this number on; 0 where the file has no numbers.
 LoadedMesh loaded(MeshFile read, std::uint64_t first_element);

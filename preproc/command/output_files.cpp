@@ -49,7 +49,8 @@ void require_possible(const OutputPath& output, bool force) {
 }
 
 std::string text_of(const nlohmann::json& report) {
-  return report.dump(2) + "\n";
+  // Names of files are any bytes.
+  return report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 constexpr const char *report_json = "report.json", *report_page = "report.html", *report_pdf = "report.pdf";
@@ -73,11 +74,9 @@ std::vector<OutputPath> report_outputs(const CommonFlags& flags) {
                       .limit = {},
                       .advice = "a file for one of them"});
   if (flags.report)
-    for (const char* name : {report_json, report_page}) outputs.push_back({*flags.report / name, true});
-  if (flags.report && flags.report_pdf) {
-    require_chromium();
-    outputs.push_back({*flags.report / report_pdf, true});
-  }
+    // Without a new PDF, too: an old one would be of another mesh, and goes.
+    for (const char* name : {report_json, report_page, report_pdf}) outputs.push_back({*flags.report / name, true});
+  if (flags.report && flags.report_pdf) require_chromium();
   return outputs;
 }
 
@@ -114,7 +113,10 @@ void add_report(const nlohmann::json& report, const std::string& page, const Com
   const fs::path& folder = *flags.report;
   outputs.add(folder / report_json, text_of(report), OutputFile::Folder::is_made);
   outputs.add(folder / report_page, page, OutputFile::Folder::is_made);
-  if (flags.report_pdf) outputs.add(folder / report_pdf, printed_as_pdf(page), OutputFile::Folder::is_made);
+  if (flags.report_pdf)
+    outputs.add(folder / report_pdf, printed_as_pdf(page), OutputFile::Folder::is_made);
+  else
+    outputs.remove(folder / report_pdf);
 }
 
 }  // namespace scan2fea::command

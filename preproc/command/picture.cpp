@@ -81,6 +81,12 @@ void require_usable(const PictureFlags& flags) {
                       .value = {},
                       .limit = {},
                       .advice = "--reference SCAN"});
+  if (flags.range && (flags.colour_by() == "none" || flags.colour_by() == "face" || flags.colour_by() == "measured"))
+    throw WrongUsage({.what = "colours without a scale have no range",
+                      .where = "--range",
+                      .value = "--colour " + std::string(flags.colour_by()),
+                      .limit = {},
+                      .advice = "--colour edge-ratio, or another measure"});
   std::vector<std::filesystem::path> inputs{flags.input};
   inputs.insert(inputs.end(), flags.references.begin(), flags.references.end());
   require_writable({{flags.output}}, inputs, flags.force);
@@ -199,8 +205,7 @@ Shown cut_open(const TetMesh& mesh, const Cut& cut, const ElementColours& colour
 
 Raster drawn(const LoadedMesh& mesh, const SurfaceMesh& faces, const ElementColours& colours,
              const PictureFlags& flags) {
-  const std::uint32_t beside = legend_width(colours.legend, flags.size.height);
-  const std::uint32_t width = flags.size.width > 2 * beside ? flags.size.width - beside : flags.size.width / 2;
+  const std::uint32_t width = flags.size.width - legend_width(colours.legend, flags.size.width, flags.size.height);
   const bool is_from_above = flags.eye.normalized().cross(Vec3::UnitZ()).norm() < 1e-6;
   PictureView view = view_of_all(faces, -flags.eye, is_from_above ? Vec3::UnitY() : Vec3::UnitZ(),
                                  static_cast<double>(width) / flags.size.height);
@@ -232,8 +237,12 @@ int picture(const PictureFlags& flags) {
   const std::vector<Vec3>* points = is_measured && reference.cloud ? &reference.cloud->points : nullptr;
   const ElementMeasures measures = mesh.volume_mesh ? measure_elements(*mesh.volume_mesh, scan, points)
                                                     : measure_elements(mesh.surface, scan, points);
-  const ElementColours colours = colours_of(mesh, measures, unit, flags);
-  const Raster raster = with_legend(drawn(mesh, measures.faces, colours, flags), colours.legend);
+  ElementColours colours = colours_of(mesh, measures, unit, flags);
+  if (2 * legend_width(colours.legend, flags.size.width, flags.size.height) > flags.size.width) {
+    colours.legend = {};
+    display.line("the picture is too narrow for what its colours mean");
+  }
+  const Raster raster = with_legend(drawn(mesh, measures.faces, colours, flags), colours.legend, flags.size.width);
   OutputFiles outputs;
   outputs.add(flags.output, png(raster.width, raster.height, raster.rgba));
   outputs.commit();

@@ -178,6 +178,8 @@ void OutputFiles::commit() {
     owner_->files_.splice(owner_->files_.end(), files_);
   else
     for (OutputFile& file : files_) file.commit();
+  std::error_code ignored;
+  for (const fs::path& file : obsolete_) fs::remove(file, ignored);
 }
 
 void remove_unfinished_outputs() noexcept {

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <list>
 #include <string>
+#include <vector>
 
 namespace scan2fea {
 
@@ -59,6 +60,8 @@ class OutputFiles {
   OutputFile& open(const std::filesystem::path& target, OutputFile::Folder folder = OutputFile::Folder::exists);
   void add(const std::filesystem::path& target, const std::string& text,
            OutputFile::Folder folder = OutputFile::Folder::exists);
+  // Takes away what an earlier output left there, when these are put in place.
+  void remove(const std::filesystem::path& target) { obsolete_.push_back(target); }
   // Throws IoError where one is not whole, before the first is in place.
   void commit();
 
@@ -68,6 +71,7 @@ class OutputFiles {
  private:
   OutputFiles* owner_;
   std::list<OutputFile> files_;
+  std::vector<std::filesystem::path> obsolete_;
 };
 
 // For signal handlers that end the process: takes away what has a name already and was not committed. Not while another

@@ -63,6 +63,7 @@ ElementColours colours_of_measure(const MeasuredElements& measure, std::string t
                     .high = measure.scale.high,
                     .ramp = {},
                     .is_open = measure.beyond > 0,
+                    .has_gaps = std::ranges::find(measure.steps, no_step) != measure.steps.end(),
                     .names = {}};
   const int last = measure.scale.bars * measure.scale.steps_per_bar() - 1;
   constexpr int stops = 256;

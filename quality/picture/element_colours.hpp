@@ -20,6 +20,7 @@ struct Legend {
   double low = 0, high = 1;
   std::vector<Rgb> ramp;  // from low to high
   bool is_open = false;   // what lies beyond has the colours of the ends
+  bool has_gaps = false;  // what has no value is grey
   struct Entry {
     std::string name;
     Rgb colour;

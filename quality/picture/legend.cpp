@@ -12,8 +12,8 @@ namespace {
 constexpr Rgb ink{34, 38, 44};
 
 // All lengths are multiples of the height of letters.
-double letter_height(std::uint32_t height) {
-  return std::max(11.0, height / 42.0);
+double letter_height(std::uint32_t width, std::uint32_t height) {
+  return std::max(11.0, std::min(height / 42.0, width / 36.0));
 }
 
 struct Tick {
@@ -45,7 +45,8 @@ void fill_box(Raster& raster, double left, double top, double right, double bott
 }
 
 void draw_bar(Raster& raster, const Legend& legend, double left, double top, double em) {
-  const double bottom = raster.height - 2 * em, right = left + 1.2 * em, height = bottom - top;
+  const double bottom = raster.height - (legend.has_gaps ? 3.4 : 2) * em, right = left + 1.2 * em,
+               height = bottom - top;
   for (double y = std::round(top); y < bottom; ++y) {
     const double share = 1 - (y + 0.5 - top) / height;
     const auto stop =
@@ -59,7 +60,7 @@ void draw_bar(Raster& raster, const Legend& legend, double left, double top, dou
   }
 }
 
-constexpr const char* of_the_beyond = "ends: and beyond";
+constexpr const char *of_the_beyond = "ends: and beyond", *of_the_gaps = "grey: not known";
 
 void draw_names(Raster& raster, const Legend& legend, double left, double top, double em) {
   constexpr double line = 1.6;
@@ -76,19 +77,20 @@ void draw_names(Raster& raster, const Legend& legend, double left, double top, d
 
 }  // namespace
 
-std::uint32_t legend_width(const Legend& legend, std::uint32_t height) {
+std::uint32_t legend_width(const Legend& legend, std::uint32_t width_of_all, std::uint32_t height) {
   if (legend.empty()) return 0;
-  const double em = letter_height(height), most = 16 * em;  // a longer name is cut off
+  const double em = letter_height(width_of_all, height), most = 16 * em;  // a longer name is cut off
   double width = text_width(legend.title, em);
   if (!legend.ramp.empty())
     for (const Tick& tick : ticks_of(legend)) width = std::max(width, 1.8 * em + text_width(tick.text, em));
   if (legend.is_open) width = std::max(width, text_width(of_the_beyond, em));
+  if (legend.has_gaps) width = std::max(width, text_width(of_the_gaps, em));
   for (const Legend::Entry& entry : legend.names) width = std::max(width, 1.5 * em + text_width(entry.name, em));
   return static_cast<std::uint32_t>(std::ceil(std::min(width, most) + 1.5 * em));
 }
 
-Raster with_legend(const Raster& picture, const Legend& legend) {
-  Raster raster{.width = picture.width + legend_width(legend, picture.height), .height = picture.height, .rgba = {}};
+Raster with_legend(const Raster& picture, const Legend& legend, std::uint32_t width_of_all) {
+  Raster raster{.width = width_of_all, .height = picture.height, .rgba = {}};
   raster.rgba.assign(std::size_t{4} * raster.width * raster.height, 255);
   for (std::uint32_t y = 0; y < picture.height; ++y)
     for (std::uint32_t x = 0; x < picture.width; ++x) {
@@ -97,9 +99,10 @@ Raster with_legend(const Raster& picture, const Legend& legend) {
         raster.pixel(x, y)[c] = static_cast<std::uint8_t>((from[c] * from[3] + 255 * (255 - from[3])) / 255);
     }
   if (legend.empty()) return raster;
-  const double em = letter_height(picture.height), left = picture.width + 0.5 * em;
+  const double em = letter_height(width_of_all, picture.height), left = picture.width + 0.5 * em;
   draw_text(raster, legend.title, left, 1.8 * em, em, ink);
   if (legend.is_open) draw_text(raster, of_the_beyond, left, raster.height - 0.6 * em, em, ink);
+  if (legend.has_gaps) draw_text(raster, of_the_gaps, left, raster.height - 2 * em, em, ink);
   if (!legend.ramp.empty())
     draw_bar(raster, legend, left, 3.2 * em, em);
   else

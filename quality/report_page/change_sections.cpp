@@ -30,7 +30,7 @@ std::string change_table(const Json& report, const char* key, const char* captio
   for (std::size_t i = 0; i < std::min(changes.size(), most_rows); ++i) {
     const Json& change = *changes[i];
     table.row({words(change["what"].get<std::string>()), number(change["size"]),
-               change.contains("area") ? number(change["area"]) : std::string(), place(change["place"]),
+               change.contains("area") ? number(change["area"]) : std::string(), place(change["place"], report),
                show_button("place", "Show", change["place"].dump())});
   }
   return table.text() + left_out(changes.size());
@@ -70,7 +70,8 @@ std::string face_table(const Json& report) {
     table.row({"<code>" + escaped(face["name"].get<std::string>()) + "</code>",
                escaped(face["kind"].get<std::string>()) +
                    (face.contains("radius") ? ", radius " + number(face["radius"]) : std::string()),
-               number(face["area"], 5), place(face["place"]), show_button("place", "Show", face["place"].dump())});
+               number(face["area"], 5), place(face["place"], report),
+               show_button("place", "Show", face["place"].dump())});
   }
   return table.text() + left_out(report["faces"].size());
 }
@@ -92,7 +93,7 @@ std::string contact_table(const Json& report) {
     table.row(
         {escaped(contact["bodies"][0].get<std::string>()) + ", " + escaped(contact["bodies"][1].get<std::string>()),
          "<code>" + escaped(contact["set"].get<std::string>()) + "</code>", number(contact["largest_gap"]),
-         number(contact["largest_overlap"]), place(contact["place"]),
+         number(contact["largest_overlap"]), place(contact["place"], report),
          show_button("place", "Show", contact["place"].dump())});
   return table.text();
 }

@@ -54,8 +54,16 @@ std::string counted(const Json& count, std::string_view one, std::string_view ma
   return number(count) + " " + std::string(count == 1 ? one : many);
 }
 
-std::string place(const Json& point, int digits) {
+std::string place(const Json& point, const Json& report) {
   if (!point.is_array() || point.size() != 3) return "none";
+  int digits = 5;
+  const Json* size = find_figure(report, "size.diagonal");
+  if (size != nullptr && size->get<double>() > 0) {
+    double farthest = size->get<double>();
+    for (const Json& x : point)
+      if (x.is_number()) farthest = std::max(farthest, std::abs(x.get<double>()));
+    digits += static_cast<int>(std::ceil(std::log10(farthest / size->get<double>())));
+  }
   return "(" + number(point[0], digits) + ", " + number(point[1], digits) + ", " + number(point[2], digits) + ")";
 }
 

@@ -30,8 +30,8 @@ std::string percent(const Json& value, int digits = 3);
 // "1 element is", "2 elements are": the count and the words of one, or of many.
 std::string counted(const Json& count, std::string_view one, std::string_view many);
 
-// "(1.5, 0, -2)", for a list of three numbers.
-std::string place(const Json& point, int digits = 5);
+// "(1.5, 0, -2)", for a list of three numbers, of so many digits that of the report's mesh a ten-thousandth is told.
+std::string place(const Json& point, const Json& report);
 
 // A button that shows a place in the view: what the script looks for.
 std::string show_button(std::string_view what, std::string_view label, std::string_view data);

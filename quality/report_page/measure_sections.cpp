@@ -107,6 +107,7 @@ std::string measures_section(const Json& report) {
                 "</code>; distances and differences are from the first, <code>" +
                 escaped(report["compared"]["first"]["input"].get<std::string>()) + "</code>.</p>\n"
           : std::string();
+  if (table.text().empty()) return {};
   return "<h2 id=\"measures\">Measures</h2>\n" + whose + "<div class=\"measures\">" + table.text() + "</div>" +
          sources(used);
 }
@@ -128,7 +129,7 @@ std::string worst_section(const Json& report) {
         {element_number, shape_cells(element, is_volume ? "scaled_jacobian" : "min_angle_deg"),
          is_volume ? number(element["min_dihedral_deg"]) + "\u00b0 to " + number(element["max_dihedral_deg"]) + "\u00b0"
                    : number(element["max_angle_deg"]) + "\u00b0",
-         shape_cells(element, "edge_ratio"), place(element["place"], 5), cause_of(element),
+         shape_cells(element, "edge_ratio"), place(element["place"], report), cause_of(element),
          show_button("worst", "Show", index)},
         "data-worst=\"" + index + "\"");
   }

@@ -32,9 +32,9 @@ std::string filled_in(std::string_view frame, const std::map<std::string_view, s
 }
 
 std::optional<CloseUp> close_up(const Json& report) {
-  const auto at = [](const Json& place, const std::string& title) -> std::optional<CloseUp> {
+  const auto at = [&](const Json& place, const std::string& title) -> std::optional<CloseUp> {
     if (!place[0].is_number()) return {};
-    return CloseUp{Vec3(place[0], place[1], place[2]), title + ", at " + html::place(place)};
+    return CloseUp{Vec3(place[0], place[1], place[2]), title + ", at " + html::place(place, report)};
   };
   if (const Json* farthest = find_figure(report, "deviation.farthest_point"))
     return at(*farthest, std::string("Where ") + (farthest_is_on_reference(report)
@@ -92,21 +92,22 @@ std::string report_page(const ReportPageInput& input) {
                                    .first_element = input.first_element,
                                    .element_numbers = input.element_numbers});
   const Json& report = input.report;
-  return filled_in(page_template(), {{"TITLE", html::escaped(input.title)},
-                                     {"STYLE", std::string(page_style())},
-                                     {"VERDICT", verdict_section(report)},
-                                     {"COMPARISON", comparison_section(report)},
-                                     {"STILLS", stills(input)},
-                                     {"WORST", worst_section(report)},
-                                     {"ORIGIN", origin_section(report)},
-                                     {"STAGES", stages_section(report)},
-                                     {"CHANGES", changes_section(report)},
-                                     {"MEASURES", measures_section(report)},
-                                     {"SETS", sets_section(report)},
-                                     {"REPORT", for_script(report.dump())},
-                                     {"VIEW", for_script(view.description.dump())},
-                                     {"ARRAYS", view.arrays},
-                                     {"SCRIPT", std::string(page_script())}});
+  return filled_in(page_template(),
+                   {{"TITLE", html::escaped(input.title)},
+                    {"STYLE", std::string(page_style())},
+                    {"VERDICT", verdict_section(report)},
+                    {"COMPARISON", comparison_section(report)},
+                    {"STILLS", stills(input)},
+                    {"WORST", worst_section(report)},
+                    {"ORIGIN", origin_section(report)},
+                    {"STAGES", stages_section(report)},
+                    {"CHANGES", changes_section(report)},
+                    {"MEASURES", measures_section(report)},
+                    {"SETS", sets_section(report)},
+                    {"REPORT", for_script(report.dump(-1, ' ', false, Json::error_handler_t::replace))},
+                    {"VIEW", for_script(view.description.dump())},
+                    {"ARRAYS", view.arrays},
+                    {"SCRIPT", std::string(page_script())}});
 }
 
 }  // namespace scan2fea

@@ -50,6 +50,8 @@ ThinnedView clustered(const SurfaceMesh& mesh, double cell) {
     Triangle t;
     for (std::size_t k = 0; k < 3; ++k) t[k] = first[mesh.triangles[f][k]];
     if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
+    // Small folds of the cells would show their backs.
+    if (area_vector(mesh, t).dot(area_vector(mesh, mesh.triangles[f])) < 0) std::swap(t[1], t[2]);
     std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
     if (!known.insert(t).second) continue;
     view.mesh.triangles.push_back(t);

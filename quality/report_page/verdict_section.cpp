@@ -33,6 +33,9 @@ std::vector<std::string> faults(const Json& report) {
   if (is("surface.closed", false)) list.emplace_back("not closed");
   if (is("surface.manifold", false)) list.emplace_back("not manifold");
   add_count("surface.self_intersections", " pair of triangles crosses", " pairs of triangles cross");
+  const Json* volume = find_figure(report, "surface.volume");
+  if (volume != nullptr && volume->is_number() && volume->get<double>() < 0)
+    list.emplace_back("inside out: its normals point inwards");
   add_count("volume_mesh.inverted", " element is inside out", " elements are inside out");
   return list;
 }
@@ -62,23 +65,38 @@ std::string fact(const std::string& term, const std::string& value, const std::s
   return "<div><dt>" + term + "</dt><dd class=\"lead\">" + value + "</dd><dd>" + rest + "</dd></div>\n";
 }
 
+std::string cloud_fact(const Json& report) {
+  const Json &points = report["points"], &at = points["farthest_point"];
+  std::string share;
+  if (const Json* diagonal = find_figure(report, "reference.diagonal"); diagonal != nullptr && *diagonal > 0)
+    share = " (" + number(100 * points["largest_distance"].get<double>() / diagonal->get<double>(), 3) +
+            "\u00a0% of the diagonal)";
+  return fact("Farthest of the cloud's points",
+              figure(report, "points.largest_distance") + "\u00a0" + unit_text(report) + share,
+              "from the mesh, at " + place(at, report) + " " + show_button("place", "Show", at.dump()) + "<br>RMS " +
+                  figure(report, "points.rms_distance") + " " + unit_text(report) + " of " +
+                  figure(report, "points.count") + " points");
+}
+
 std::string distance_fact(const Json& report) {
   if (!report.contains("deviation")) {
-    if (report.contains("points"))
-      return fact("Points of the cloud", figure(report, "points.largest_distance") + " " + unit_text(report),
-                  "at most from the mesh, at " + place(report["points"]["farthest_point"]));
+    if (report.contains("points")) return cloud_fact(report);
     return fact("Distance from a reference", "not measured", "no reference was given");
   }
   const Json& at = report["deviation"]["farthest_point"];
   const bool is_on_reference = farthest_is_on_reference(report);
   const bool is_of_two = report.contains("compared");
   const std::string own = is_of_two ? "second mesh" : "mesh", first = is_of_two ? "first mesh" : "reference";
+  constexpr double rounding = 1e-10;  // % of the diagonal
+  const Json& share = report["deviation"]["hausdorff_pct_diagonal"];
+  if (share.is_number() && share.get<double>() < rounding)
+    return fact("Farthest from the " + first, "0", "but for rounding: every point of either lies on the other");
   return fact(
       "Farthest from the " + first, "at least " + distance_text(report, "deviation.hausdorff_pct_diagonal"),
       "a point of the " + (is_on_reference ? first : own) +
           (report["deviation"].value("farthest_is_on_filling", false) ? ", where a hole of the scan was closed, at "
                                                                       : ", at ") +
-          place(at) + " " +
+          place(at, report) + " " +
           show_button(is_on_reference ? "farthest-of-reference" : "farthest-of-mesh", "Show", at.dump()) + "<br>RMS " +
           distance_text(report, "deviation.rms_pct_diagonal") + "<br>volume " +
           percent_figure(report, "deviation.volume_difference_pct") + ", area " +
@@ -95,7 +113,7 @@ std::string worst_fact(const Json& report) {
                   show_button("worst", "Show", "0"),
               (is_volume ? "scaled Jacobian " + number(worst["scaled_jacobian"])
                          : "smallest angle " + number(worst["min_angle_deg"]) + "\u00b0") +
-                  " at " + place(worst["place"]) + "<br>" + cause_of(worst));
+                  " at " + place(worst["place"], report) + "<br>" + cause_of(worst));
 }
 
 std::string made_up_fact(const Json& report) {
@@ -126,10 +144,10 @@ std::string size_fact(const Json& report) {
   return fact("Surface", figure(report, "surface.faces") + " triangles", rest);
 }
 
-std::string where_of(const Json& gate) {
+std::string where_of(const Json& gate, const Json& report) {
   if (!gate.contains("place")) return gate.value("reason", "");
   return (gate.contains("element") ? "element " + gate["element"].dump() + " at " : std::string()) +
-         place(gate["place"]) + " " + show_button("place", "Show", gate["place"].dump());
+         place(gate["place"], report) + " " + show_button("place", "Show", gate["place"].dump());
 }
 
 std::string gate_table(const Json& report) {
@@ -143,7 +161,7 @@ std::string gate_table(const Json& report) {
     table.row({pass ? "<strong class=\"good\">passed</strong>" : "<strong class=\"bad\">failed</strong>",
                "<code>" + escaped(gate["name"].get<std::string>()) + "</code>",
                "<data value=\"" + gate["value"].dump() + "\">" + number(gate["value"], 6) + "</data>",
-               escaped(gate["operator"].get<std::string>()), number(gate["limit"], 6), where_of(gate),
+               escaped(gate["operator"].get<std::string>()), number(gate["limit"], 6), where_of(gate, report),
                set.empty() ? "asked for" : "<code>" + escaped(set) + "</code>"});
   }
   std::string list;

@@ -39,7 +39,9 @@ class Regions {
 
   FaceRegions run() {
     connect(smooth_, [&](Index f, Index g) { return label_[f] == label_[g]; });
-    absorb(find_specks());
+    std::vector<bool> is_speck = find_specks();
+    if (join_within_creases(is_speck)) is_speck = find_specks();
+    absorb(is_speck);
     connect(neighbours_, [&](Index f, Index g) {
       return region_[f] == region_[g] || (label_[f] == label_[g] && label_[f] != no_primitive);
     });
@@ -116,6 +118,30 @@ class Regions {
       is_speck[p] = (narrow || piece.triangles < fewest_triangles) && piece.perimeter > 0 && !exact;
     }
     return is_speck;
+  }
+
+  // Where all that creases enclose is specks, it is one face in pieces, as a cone is for which no shape was found but
+  // strips of planes. Returns whether there was any.
+  bool join_within_creases(const std::vector<bool>& is_speck) {
+    const std::vector<Index> pieces = region_, labels = label_;
+    connect(smooth_, [](Index, Index) { return true; });
+    const std::vector<Index> enclosed = region_;
+    std::vector<bool> all_specks(enclosed.size(), true);
+    std::vector<Index> first(enclosed.size(), no_region);
+    std::vector<bool> in_pieces(enclosed.size(), false);
+    for (Index f = 0; f < enclosed.size(); ++f) {
+      if (!is_speck[pieces[f]]) all_specks[enclosed[f]] = false;
+      Index& known = first[enclosed[f]];
+      if (known == no_region) known = pieces[f];
+      if (known != pieces[f]) in_pieces[enclosed[f]] = true;
+    }
+    const auto is_joined = [&](Index f) { return all_specks[enclosed[f]] && in_pieces[enclosed[f]]; };
+    region_ = pieces;
+    connect(smooth_, [&](Index f, Index g) { return pieces[f] == pieces[g] || is_joined(f); });
+    bool any = false;
+    for (Index f = 0; f < enclosed.size(); ++f)
+      if (is_joined(f)) label_[f] = no_primitive, any = true;
+    return any;
   }
 
   // From the borders of the other regions inwards, the best described triangle first. What no region reaches stays.

@@ -8,6 +8,11 @@ import { View } from './view.js';
 const get = (id) => document.getElementById(id);
 const count = (n) => n.toLocaleString('en');
 const areShown = (n) => `${count(n)} ${n === 1 ? 'is' : 'are'} shown`;
+// Of so many digits that of a part of this size a ten-thousandth is told, however far from the origin it lies.
+export const placeText = (point, size) => {
+  const farthest = Math.max(size, ...point.map(Math.abs));
+  return `(${point.map((x) => +x.toPrecision(5 + Math.ceil(Math.log10(farthest / size)))).join(', ')})`;
+};
 const number = (x) => (x === null || Number.isNaN(x) ? 'none' : String(+x.toPrecision(4)));
 
 function dropDeadLinks() {
@@ -23,6 +28,10 @@ function tellWhatTheViewLacks(view) {
     lines.push(`The ${count(view.result.tetrahedra)} tetrahedra are too many for a page: the cut shows the surface alone.`);
   if (view.result.is_curved)
     lines.push('Curved elements are drawn by their corners; figures are of the curves.');
+  const deviation = view.measures.find((m) => m.measure === 'deviation');
+  const without = deviation ? view.result.triangles - deviation.counts.reduce((a, b) => a + b, 0) : 0;
+  if (without > 0)
+    lines.push(`The deviation of ${count(without)} of ${count(view.result.triangles)} triangles is not known, and they are grey: no measured point is nearest to them.`);
   if (view.reference && view.reference.is_thinned)
     lines.push(`The reference is shown by ${count(view.reference.shown)} of its ${count(view.reference.triangles)} triangles, thinned.`);
   get('thinned').textContent = lines.join(' ');
@@ -37,7 +46,8 @@ class Page {
     this.colourings = colourings(description, data, this.unit);
     this.view = new View(get('canvas'), description, data, this.frame);
     const both = report.compared, names = both && [both.first.input, both.second.input];
-    this.panel = new Panel(this.view, this.colourings, this.frame, this.unit, Boolean(this.view.reference), names);
+    this.panel = new Panel(this.view, this.colourings, this.frame, this.unit, Boolean(this.view.reference), names,
+      report.surface ? null : 'set');  // the page that measures nothing is that of a part's faces
     this.clearBars = drawHistograms(get('histograms'), description.measures, this.unit, (m, bar, words) => this.pickBar(m, bar, words));
     this.bindButtons();
     this.bindPicking();
@@ -88,6 +98,8 @@ class Page {
     get('canvas').dataset.element = element.element;
   }
 
+  place(point) { return placeText(point, this.frame.diagonal); }
+
   // In the colours of the one that the point is of: the other's may say nothing of it.
   showFarthest(isOfReference, place) {
     this.clearBars();
@@ -96,8 +108,8 @@ class Page {
     this.view.showPlace(place);
     const [own, other] = ['mesh', 'reference'].map((name, i) => (this.report.compared ? ['second mesh', 'first mesh'][i] : name));
     this.panel.tell(isOfReference
-      ? `The point of the ${other} that is farthest from the ${own}: (${place.map(number).join(', ')}), left; to the right what the ${own} has there.`
-      : `The point of the ${own} that is farthest from the ${other}: (${place.map(number).join(', ')}).`);
+      ? `The point of the ${other} that is farthest from the ${own}: ${this.place(place)}, left; to the right what the ${own} has there.`
+      : `The point of the ${own} that is farthest from the ${other}: ${this.place(place)}.`);
   }
 
   showSet(name) {
@@ -119,7 +131,7 @@ class Page {
       if (show.startsWith('farthest')) this.showFarthest(show === 'farthest-of-reference', JSON.parse(at));
       if (show === 'place') {
         this.view.showPlace(JSON.parse(at));
-        this.panel.tell(`The place (${JSON.parse(at).map(number).join(', ')}).`);
+        this.panel.tell(`The place ${this.place(JSON.parse(at))}.`);
       }
       const calm = window.matchMedia('(prefers-reduced-motion: reduce)').matches;
       get('viewer').scrollIntoView({ behavior: calm ? 'auto' : 'smooth' });

@@ -5,10 +5,10 @@ import { drawLegend } from './plots.js';
 const get = (id) => document.getElementById(id);
 
 export class Panel {
-  constructor(view, colourings, frame, unit, hasReference, names) {
+  constructor(view, colourings, frame, unit, hasReference, names, first) {
     Object.assign(this, { view, colourings, frame, unit });
     this.tell = (text) => { get('picked').textContent = text; };
-    this.fillColours();
+    this.fillColours(first);
     this.bindParts(hasReference, names);
     this.bindCut();
     get('edges').checked = view.withEdges;
@@ -19,13 +19,13 @@ export class Panel {
     this.bindKeys();
   }
 
-  fillColours() {
+  fillColours(first) {
     const box = get('colour');
     for (const c of this.colourings) box.add(new Option(c.title, c.name));
     box.addEventListener('change', () => this.colourBy(box.value));
     for (const id of ['scale-low', 'scale-high']) get(id).addEventListener('change', () => this.rescale());
     get('scale-reset').addEventListener('click', () => this.colourBy(box.value));
-    this.colourBy(this.colourings[0].name);
+    this.colourBy((this.colourings.find((c) => c.name === first) || this.colourings[0]).name);
   }
 
   colourBy(name) {
@@ -85,7 +85,8 @@ export class Panel {
     const [on, axis, place, flip, text] = ['cut', 'cut-axis', 'cut-place', 'cut-flip', 'cut-text'].map(get);
     this.updateCut = () => {
       const a = +axis.value, share = +place.value / 1000, { low, high } = this.frame;
-      text.value = `${'xyz'[a]} = ${+(low[a] + share * (high[a] - low[a])).toPrecision(4)} ${this.unit}`;
+      const at = low[a] + share * (high[a] - low[a]), step = (high[a] - low[a]) / 1000;
+      text.value = `${'xyz'[a]} = ${step > 0 ? +at.toFixed(Math.min(100, Math.max(0, Math.ceil(-Math.log10(step))))) : at} ${this.unit}`;
       this.view.setCut({ on: on.checked, axis: a, place: share, flip: flip.checked });
     };
     on.addEventListener('change', this.updateCut);
