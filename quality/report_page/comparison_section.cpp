@@ -60,7 +60,7 @@ std::string comparison_section(const Json& report) {
   for (const NamedFigure& measure : shown_figures()) row(measure.label, measure.name, measure.unit);
   const std::string reference = reference_of(report);
   return "<h2 id=\"comparison\">Both meshes</h2>\n<p>" +
-         (reference.empty() ? "Distances are"
+         (reference.empty() ? "Distances"
                             : "Distances and differences in this table are of each mesh from the reference, <code>" +
                                   reference + "</code>; those") +
          " in the verdict, in the view and under Measures are of the second mesh from the first.</p>\n" + table.text();
