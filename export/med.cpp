@@ -1,5 +1,6 @@
 #include "export/med.hpp"
 
+#include "export/hdf5_times.hpp"
 #include "export/med_module.hpp"
 #include "export/raw_mesh.hpp"
 #include "export/set_names.hpp"
@@ -72,6 +73,7 @@ void write(const MedMesh& mesh, const std::filesystem::path& file, OutputFiles* 
     write_by_med(mesh, bytes, failure);
   }
   if (!failure.empty()) throw IoError({"the MED library cannot write the file", file.string(), failure, {}, {}});
+  forget_times(bytes);
   output.stream().write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   files.commit();
 }
