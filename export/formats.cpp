@@ -8,6 +8,7 @@
 #include "export/inp.hpp"
 #include "export/med.hpp"
 #include "export/msh.hpp"
+#include "export/number_text.hpp"
 #include "export/set_names.hpp"
 #include "export/su2.hpp"
 #include "export/surface_files.hpp"
@@ -67,11 +68,11 @@ constexpr Holdings of_elmer{
 constexpr Holdings of_su2{.face_sets = true, .unit = true};
 
 constexpr auto formats = std::to_array<FileFormat>({
-    {".inp", "Abaqus, CalculiX", all, numbered, write_inp, write_inp, read_inp},
+    {".inp", "Abaqus, CalculiX", all, numbered, write_inp, write_inp, read_inp, as_written},
     {".msh", "Gmsh", in_order, numbered_in_order, write_msh, write_msh, read_msh},
     {".vtu", "VTK", of_viewers, of_viewers_surface, write_vtu, write_vtu, read_vtk_xml},
-    {".bdf", "Nastran", of_nastran, of_nastran_surface, write_bdf, write_bdf, read_bdf},
-    {".nas", "Nastran", of_nastran, of_nastran_surface, write_bdf, write_bdf, read_bdf},
+    {".bdf", "Nastran", of_nastran, of_nastran_surface, write_bdf, write_bdf, read_bdf, as_written_for_nastran},
+    {".nas", "Nastran", of_nastran, of_nastran_surface, write_bdf, write_bdf, read_bdf, as_written_for_nastran},
     {".unv", "I-DEAS, Salome", all, numbered, write_unv, write_unv, read_unv},
     {".med", "Salome, Code_Aster", in_order, numbered_in_order, write_med, write_med, read_med},
     {".xdmf", "DOLFINx", of_viewers, {}, write_xdmf, nullptr, read_xdmf},
@@ -256,6 +257,12 @@ Notes write_surface(const NamedSurface& surface, const std::filesystem::path& fi
   for (std::string& note : format.write_surface(options.set_prefix.empty() ? surface : prefixed, file, options))
     notes.push_back(std::move(note));
   return notes;
+}
+
+void round_to_file(std::vector<Vec3>& points, const std::filesystem::path& file) {
+  const FileFormat* format = find_format(file);
+  if (format == nullptr || format->rounded == nullptr) return;
+  for (Vec3& p : points) p = p.unaryExpr(format->rounded);
 }
 
 NamedSurface named_boundary(const TetMesh& given, Notes& notes) {

@@ -20,8 +20,8 @@ struct Holdings {
   bool element_sets = false;
   bool unit = false;
   bool second_order = false;
-  bool fields = false;  // see FileOptions
-  bool faces_between = false;   // sets of faces between two bodies; with face_sets
+  bool fields = false;         // see FileOptions
+  bool faces_between = false;  // sets of faces between two bodies; with face_sets
   // Up to which nodes and elements may be numbered (see Numbering); 0 where the format has no numbers of its own.
   std::uint64_t largest_number = 0;
   bool own_numbers = false;  // whether these may be any
@@ -35,6 +35,8 @@ struct FileFormat {
   Notes (*write_volume)(const TetMesh&, const std::filesystem::path&, const FileOptions&) = nullptr;
   Notes (*write_surface)(const NamedSurface&, const std::filesystem::path&, const FileOptions&) = nullptr;
   MeshFile (*read)(const std::filesystem::path&) = nullptr;
+  // A coordinate as a reader of the file finds it, where fields are too narrow for all digits; null where they are not.
+  double (*rounded)(double) = nullptr;
 };
 
 std::span<const FileFormat> file_formats();
@@ -62,6 +64,10 @@ Notes write_surface(const NamedSurface& surface, const std::filesystem::path& fi
 // Sets the options to the numbers that another file gave, where the format holds them and none were asked for; else
 // notes what they become.
 Notes keep_numbers(const MeshFile& read, const std::filesystem::path& file, FileOptions& options);
+
+// Rounds points as the file's format does, if it does, so that figures of a mesh are those of its file. STL's surfaces,
+// of 32-bit numbers, stay as they are.
+void round_to_file(std::vector<Vec3>& points, const std::filesystem::path& file);
 
 // Reads whatever the file holds. A surface's format is told by its content, where that is certain, and otherwise by the
 // extension. Throws WrongUsage for an unknown extension, InvalidInput for what the readers of the formats say. The

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace scan2fea {
@@ -79,7 +80,28 @@ Text in_nastran_form(const Text& text) {
   return result;
 }
 
+double read_back(std::string_view text, double otherwise) {
+  double value = otherwise;
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return value;
+}
+
 }  // namespace
+
+double as_written(double value) {
+  if (!std::isfinite(value)) return value;
+  char text[longest_number];
+  return read_back({text, write_number(text, value)}, value);
+}
+
+double as_written_for_nastran(double value) {
+  if (!std::isfinite(value)) return value;
+  char text[nastran_width];
+  std::string all(text, write_nastran_number(text, value));
+  // Its exponents have no letter.
+  if (const std::size_t sign = all.find_last_of("+-"); sign != std::string::npos && sign > 0) all.insert(sign, "e");
+  return read_back(all, value);
+}
 
 char* write_number(char* text, double value) {
   Text best = without_exponent_padding(printed(value));

@@ -22,4 +22,8 @@ inline constexpr std::size_t nastran_width = 16;
 // to the same bits.
 char* write_nastran_number(char* text, double value);
 
+// What a reader of these finds. Not finite values stay.
+double as_written(double value);
+double as_written_for_nastran(double value);
+
 }  // namespace scan2fea

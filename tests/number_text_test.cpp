@@ -61,5 +61,17 @@ TEST(NumberText, ExtremesFit) {
   }
 }
 
+TEST(NumberText, IsReadBackAsTold) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> mantissa(-10, 10), exponent(-12, 9);
+  for (int i = 0; i < 20000; ++i) {
+    const double value = mantissa(random) * std::pow(10, std::floor(exponent(random)));
+    EXPECT_EQ(as_written(as_written(value)), as_written(value)) << value;
+    EXPECT_NEAR(as_written(value), value, 1e-12 * std::abs(value));
+    EXPECT_EQ(as_written_for_nastran(as_written_for_nastran(value)), as_written_for_nastran(value)) << value;
+    EXPECT_NEAR(as_written_for_nastran(value), value, 1e-10 * std::abs(value));
+  }
+}
+
 }  // namespace
 }  // namespace scan2fea

@@ -58,6 +58,19 @@ TEST_F(ReportCommand, FiguresOfAResultAreThoseOfItsFile) {
   }
 }
 
+// Fields of 20 and of 16 characters are too narrow for small numbers.
+TEST_F(ReportCommand, FiguresAreThoseOfTheRoundedFile) {
+  SurfaceMesh ball = analytic::sphere(0.01, 4);
+  for (Vec3& p : ball.vertices) p += Vec3(0.0123456789012345, -0.003, 0.0001);
+  write_surface(ball, path("small.ply"));
+  for (const std::string name : {"part.inp", "part.bdf"}) {
+    const json made = figures("run " + quoted("small.ply") + " -o " + quoted(name) + " --faces 500");
+    const json checked = figures("check " + quoted(name) + " --reference " + quoted("small.ply"));
+    for (const char* section : {"surface", "deviation", "volume_mesh", "histograms", "worst_elements", "size"})
+      EXPECT_EQ(made[section], checked[section]) << section << " of " << name;
+  }
+}
+
 TEST_F(ReportCommand, ElementNumbersAreThoseOfTheFile) {
   const auto worst = [](const json& report) { return report["worst_elements"]["elements"][0]["element"].get<int>(); };
   const int number = worst(run_ball("part.inp"));

@@ -373,7 +373,11 @@ int make_mesh(MakeMeshJob job) {
   OutputFiles outputs, figures;
   if (result.volume_mesh) result.volume_mesh->unit = job.common.unit.value_or("");
   display.begin("write");
-  if (writes(job)) write_all(result, job, display, outputs);
+  if (writes(job)) {
+    write_all(result, job, display, outputs);
+    // What is measured is what the file holds.
+    round_to_file(result.volume_mesh ? result.volume_mesh->nodes : result.surface.vertices, job.output);
+  }
   if (!job.common.quiet || job.common.json || job.common.report || !gates.empty()) {
     // As `check` will find it in the file.
     const SurfaceMesh boundary = result.volume_mesh ? boundary_surface(*result.volume_mesh) : SurfaceMesh{};
