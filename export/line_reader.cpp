@@ -1,10 +1,11 @@
 #include "export/line_reader.hpp"
 
-#include <fast_float/fast_float.h>
+#include "export/number_text.hpp"
 
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <optional>
 
 namespace scan2fea {
 
@@ -39,21 +40,9 @@ double LineReader::real(std::string_view field) const {
   field = without_blanks(field);
   if (field.empty()) return 0;
   if (field.front() == '+') field.remove_prefix(1);
-  double value = 0;
-  const auto first = fast_float::from_chars(field.data(), field.data() + field.size(), value);
-  if (first.ec == std::errc() && first.ptr == field.data() + field.size()) return value;
-  std::string text;
-  for (const char c : field) {
-    const bool sign_of_exponent = (c == '-' || c == '+') && !text.empty() && text.back() != 'e';
-    if (c == 'd' || c == 'D' || c == 'E')
-      text += 'e';
-    else
-      (sign_of_exponent ? text += 'e' : text) += c;
-  }
-  const auto second = fast_float::from_chars(text.data(), text.data() + text.size(), value);
-  if (second.ec != std::errc() || second.ptr != text.data() + text.size())
-    fail("not a number", std::string(field.substr(0, 40)));
-  return value;
+  const std::optional<double> value = read_number(field);
+  if (!value) fail("not a number", std::string(field.substr(0, 40)));
+  return *value;
 }
 
 std::string_view LineReader::field(std::size_t column, std::size_t width) const {

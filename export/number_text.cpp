@@ -1,12 +1,12 @@
 #include "export/number_text.hpp"
 
+#include <fast_float/fast_float.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <optional>
 #include <string>
-#include <string_view>
 
 namespace scan2fea {
 namespace {
@@ -80,27 +80,38 @@ Text in_nastran_form(const Text& text) {
   return result;
 }
 
-double read_back(std::string_view text, double otherwise) {
-  double value = otherwise;
-  std::from_chars(text.data(), text.data() + text.size(), value);
+std::optional<double> number_of_all(std::string_view text) {
+  double value = 0;
+  const auto [end, error] = fast_float::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return {};
   return value;
 }
 
 }  // namespace
 
+std::optional<double> read_number(std::string_view text) {
+  if (const auto value = number_of_all(text)) return value;
+  std::string with_letters;
+  for (const char c : text) {
+    const bool sign_of_exponent = (c == '-' || c == '+') && !with_letters.empty() && with_letters.back() != 'e';
+    if (c == 'd' || c == 'D' || c == 'E')
+      with_letters += 'e';
+    else
+      (sign_of_exponent ? with_letters += 'e' : with_letters) += c;
+  }
+  return number_of_all(with_letters);
+}
+
 double as_written(double value) {
   if (!std::isfinite(value)) return value;
   char text[longest_number];
-  return read_back({text, write_number(text, value)}, value);
+  return read_number({text, write_number(text, value)}).value_or(value);
 }
 
 double as_written_for_nastran(double value) {
   if (!std::isfinite(value)) return value;
   char text[nastran_width];
-  std::string all(text, write_nastran_number(text, value));
-  // Its exponents have no letter.
-  if (const std::size_t sign = all.find_last_of("+-"); sign != std::string::npos && sign > 0) all.insert(sign, "e");
-  return read_back(all, value);
+  return read_number({text, write_nastran_number(text, value)}).value_or(value);
 }
 
 char* write_number(char* text, double value) {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
+#include <string_view>
 
 namespace scan2fea {
 
@@ -21,6 +23,9 @@ inline constexpr std::size_t nastran_width = 16;
 // letter ("1.5-3"): the form with the most significant digits that fits, at least 11, or the shortest that reads back
 // to the same bits.
 char* write_nastran_number(char* text, double value);
+
+// Of these, and of Fortran's, whose exponents may begin with a D or have no letter: nothing where it is no number.
+std::optional<double> read_number(std::string_view text);
 
 // What a reader of these finds. Not finite values stay.
 double as_written(double value);

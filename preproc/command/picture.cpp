@@ -12,6 +12,7 @@
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/error_text.hpp"
 #include "preproc/mesh/file_extension.hpp"
+#include "preproc/mesh/numbers.hpp"
 #include "quality/curved_surface.hpp"
 #include "quality/picture/cut_open.hpp"
 #include "quality/picture/legend.hpp"
@@ -19,7 +20,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <span>
 #include <string_view>
 
@@ -144,7 +144,7 @@ Cut cut_before(const CutFlag& flag, const Vec3& eye, const SurfaceMesh& mesh) {
   const BoundingBox box = bounding_box(mesh.vertices);
   Cut cut{.normal = flag.normal, .offset = flag.offset.value_or(flag.normal.dot(0.5 * (box.low + box.high)))};
   if (cut.normal.dot(eye) < 0) cut = {.normal = -cut.normal, .offset = -cut.offset};
-  double least = std::numeric_limits<double>::infinity(), largest = -least;
+  double least = infinity, largest = -infinity;
   for (const Vec3& p : mesh.vertices) {
     least = std::min(least, flag.normal.dot(p));
     largest = std::max(largest, flag.normal.dot(p));
