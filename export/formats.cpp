@@ -67,18 +67,41 @@ constexpr Holdings of_elmer{
     .face_sets = true, .element_sets = true, .unit = true, .second_order = true, .faces_between = true};
 constexpr Holdings of_su2{.face_sets = true, .unit = true};
 
+std::vector<std::filesystem::path> other_files_of_xdmf(const std::filesystem::path& file, std::size_t) {
+  return {facets_of_xdmf(file)};
+}
+
+std::vector<std::filesystem::path> other_files_of_elmer(const std::filesystem::path& header, std::size_t parts) {
+  std::vector<std::filesystem::path> files;
+  for (const char* name : {"mesh.nodes", "mesh.elements", "mesh.boundary", "mesh.names"})
+    files.push_back(header.parent_path() / name);
+  for (std::size_t part = 1; part <= parts; ++part)
+    for (const std::filesystem::path& file : files_of_elmer_part(header, parts, part)) files.push_back(file);
+  return files;
+}
+
 constexpr auto formats = std::to_array<FileFormat>({
     {".inp", "Abaqus, CalculiX", all, numbered, write_inp, write_inp, read_inp, as_written},
     {".msh", "Gmsh", in_order, numbered_in_order, write_msh, write_msh, read_msh},
     {".vtu", "VTK", of_viewers, of_viewers_surface, write_vtu, write_vtu, read_vtk_xml},
+    {".pvtu",
+     "VTK in parallel",
+     of_viewers,
+     {},
+     write_pvtu,
+     nullptr,
+     read_pvtu,
+     nullptr,
+     Parts::always,
+     pieces_of_pvtu},
     {".bdf", "Nastran", of_nastran, of_nastran_surface, write_bdf, write_bdf, read_bdf, as_written_for_nastran},
     {".nas", "Nastran", of_nastran, of_nastran_surface, write_bdf, write_bdf, read_bdf, as_written_for_nastran},
     {".unv", "I-DEAS, Salome", all, numbered, write_unv, write_unv, read_unv},
     {".med", "Salome, Code_Aster", in_order, numbered_in_order, write_med, write_med, read_med},
-    {".xdmf", "DOLFINx", of_viewers, {}, write_xdmf, nullptr, read_xdmf},
+    {".xdmf", "DOLFINx", of_viewers, {}, write_xdmf, nullptr, read_xdmf, nullptr, Parts::too, other_files_of_xdmf},
     {".mail", "Code_Aster", in_order, {}, write_mail, nullptr, read_mail},
     {".cdb", "ANSYS", of_ansys, {}, write_cdb, nullptr, read_cdb},
-    {".header", "Elmer", of_elmer, {}, write_elmer, nullptr, read_elmer},
+    {".header", "Elmer", of_elmer, {}, write_elmer, nullptr, read_elmer, nullptr, Parts::too, other_files_of_elmer},
     {".exo", "Exodus II", all, numbered, write_exodus, write_exodus, read_exodus},
     {".e", "Exodus II", all, numbered, write_exodus, write_exodus, read_exodus},
     {".su2", "SU2", of_su2, {}, write_su2, nullptr, read_su2},
@@ -214,6 +237,36 @@ std::string known_volume_formats() {
 
 std::string known_surface_formats_to_write() {
   return list_of([](const FileFormat& f) { return f.write_surface != nullptr; });
+}
+
+std::string known_formats_of_parts() {
+  return list_of([](const FileFormat& f) { return f.parts != Parts::never; });
+}
+
+std::vector<std::filesystem::path> files_of_volume(const std::filesystem::path& file, std::size_t parts) {
+  const FileFormat* format = find_format(file);
+  std::vector<std::filesystem::path> files;
+  if (format != nullptr && format->other_files != nullptr) files = format->other_files(file, parts);
+  files.push_back(file);
+  return files;
+}
+
+void require_parts_fit(const std::filesystem::path& file, std::size_t parts) {
+  const FileFormat* format = find_format(file);
+  if (format == nullptr) return;
+  const std::string extension(format->extension);
+  if (parts > 0 && format->parts == Parts::never)
+    throw WrongUsage({.what = extension + " holds no mesh in parts",
+                      .where = file.string(),
+                      .value = "--parts " + std::to_string(parts),
+                      .limit = {},
+                      .advice = known_formats_of_parts()});
+  if (parts == 0 && format->parts == Parts::always)
+    throw WrongUsage({.what = extension + " is of a mesh in parts, one for each process",
+                      .where = file.string(),
+                      .value = {},
+                      .limit = {},
+                      .advice = "--parts 4, or .vtu for a single file"});
 }
 
 Notes write_volume(const TetMesh& mesh, const std::filesystem::path& file, const FileOptions& options) {

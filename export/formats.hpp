@@ -27,6 +27,9 @@ struct Holdings {
   bool own_numbers = false;  // whether these may be any
 };
 
+// Whether a file may hold a mesh in parts (FileOptions::part_sizes), or is there for nothing else.
+enum class Parts { never, too, always };
+
 struct FileFormat {
   std::string_view extension;       // ".inp"
   std::string_view programs;        // "Abaqus, CalculiX"
@@ -37,6 +40,10 @@ struct FileFormat {
   MeshFile (*read)(const std::filesystem::path&) = nullptr;
   // A coordinate as a reader of the file finds it, where fields are too narrow for all digits; null where they are not.
   double (*rounded)(double) = nullptr;
+  Parts parts = Parts::never;
+  // The files that a volume mesh of so many parts has besides this one, 0 for one that is not divided; null where there
+  // are none.
+  std::vector<std::filesystem::path> (*other_files)(const std::filesystem::path&, std::size_t parts) = nullptr;
 };
 
 std::span<const FileFormat> file_formats();
@@ -51,6 +58,15 @@ bool writes_surface(const std::filesystem::path& file);
 // For messages: ".inp (Abaqus, CalculiX), .msh (Gmsh), ...".
 std::string known_volume_formats();
 std::string known_surface_formats_to_write();
+
+std::string known_formats_of_parts();
+
+// All files that a volume mesh makes there, the one that is named last.
+std::vector<std::filesystem::path> files_of_volume(const std::filesystem::path& file, std::size_t parts);
+
+// Throws WrongUsage where the format holds no parts and some are asked for, or holds nothing else and none are.
+// `parts`: 0 for none.
+void require_parts_fit(const std::filesystem::path& file, std::size_t parts);
 
 // Of the first element of a file that is written with these numbers, or read, where its elements are a row: 0 in
 // formats without numbers of their own, in which viewers count from 0.

@@ -72,6 +72,9 @@ struct FileOptions {
   bool ascii = false;                                        // STL and PLY, which are binary otherwise
   std::string set_prefix = {};  // before the names of all sets, also of NALL, EALL and SALL
   Numbering numbers = {};
+  // How many elements each part has, of a mesh that `order_by_parts` ordered; none: the mesh is not divided. For
+  // formats that hold parts (see FileFormat).
+  std::vector<std::uint32_t> part_sizes = {};
   OutputFiles* together = nullptr;  // with which the files are put in place; without them, at once
 };
 

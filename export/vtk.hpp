@@ -21,6 +21,18 @@ Notes write_vtu(const TetMesh& mesh, const std::filesystem::path& file, const Fi
 Notes write_vtu(const NamedSurface& surface, const std::filesystem::path& file, const FileOptions& options = {});
 Notes write_vtp(const NamedSurface& surface, const std::filesystem::path& file, const FileOptions& options = {});
 
+// A .pvtu, of which parallel readers read a piece a process: an index of pieces in files beside it, PART_0.vtu,
+// PART_1.vtu and so on, one for each of the options' parts. Pieces are as `write_vtu` writes them, without ghost cells:
+// each tetrahedron is in one, nodes between parts are in several, faces of sets in that of their tetrahedron. Arrays
+// `GlobalNodeIds` and `GlobalElementIds` are the numbers from 0 on in the whole mesh, `part` that of the piece. Pieces
+// of an earlier, larger number of parts stay where they are; the index names its own. O(n log n).
+Notes write_pvtu(const TetMesh& mesh, const std::filesystem::path& file, const FileOptions& options = {});
+std::vector<std::filesystem::path> pieces_of_pvtu(const std::filesystem::path& file, std::size_t parts);
+
+// Puts the pieces together by their `GlobalNodeIds`, in the order of the index. Throws InvalidInput as `read_vtk_xml`,
+// and where pieces are missing or without these numbers, have ghost cells, or put one node at two places.
+MeshFile read_pvtu(const std::filesystem::path& file);
+
 // Reads the tetrahedra, or else the triangles, of a file of one piece: ascii, binary (base64) or appended (raw or
 // base64) arrays, also compressed by zlib or LZ4, any integer and floating-point type, both byte orders. Polygons and
 // strips of surfaces are cut into triangles; lines and points are passed over; nodes that no element uses are left out.

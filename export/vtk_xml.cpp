@@ -6,8 +6,10 @@
 #include <fast_float/fast_float.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <stdexcept>
+#include <utility>
 
 namespace scan2fea::vtk_xml {
 namespace {
@@ -191,7 +193,47 @@ std::vector<Value> read(const DataArray& array, const Storage& storage) {
   throw std::runtime_error("has a type that does not suit it: " + type);
 }
 
+constexpr std::array<std::pair<char, std::string_view>, 5> entities{
+    {{'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}, {'\'', "&apos;"}}};
+
 }  // namespace
+
+std::string escaped(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    const auto* const entity = std::ranges::find(entities, c, &std::pair<char, std::string_view>::first);
+    if (entity != entities.end())
+      result += entity->second;
+    else if (static_cast<unsigned char>(c) < 0x20)
+      result += "&#" + std::to_string(c) + ";";
+    else
+      result += c;
+  }
+  return result;
+}
+
+std::string unescaped(std::string_view text) {
+  std::string result;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const std::string_view rest = text.substr(i);
+    const auto* const entity =
+        std::ranges::find_if(entities, [&](const auto& e) { return rest.starts_with(e.second); });
+    unsigned code = 0;
+    if (entity != entities.end()) {
+      result += entity->first;
+      i += entity->second.size() - 1;
+    } else if (const auto number = std::from_chars(rest.data() + std::min<std::size_t>(2, rest.size()),
+                                                   rest.data() + rest.size(), code);
+               rest.starts_with("&#") && number.ec == std::errc() && code < 0x80 &&
+               number.ptr != rest.data() + rest.size() && *number.ptr == ';') {
+      result += static_cast<char>(code);
+      i = static_cast<std::size_t>(number.ptr - text.data());
+    } else {
+      result += text[i];
+    }
+  }
+  return result;
+}
 
 std::string Tag::attribute(const std::string& key, const std::string& otherwise) const {
   const auto it = attributes.find(key);

@@ -19,6 +19,10 @@ struct Tag {
   std::string attribute(const std::string& key, const std::string& otherwise = {}) const;
 };
 
+// For values of attributes that are any text, as names of files.
+std::string escaped(std::string_view text);
+std::string unescaped(std::string_view text);
+
 // The first tag at or behind `position`; comments and declarations are passed over. Nothing at the end of the text or
 // where the rest is not XML.
 std::optional<Tag> next_tag(std::string_view text, std::size_t position);

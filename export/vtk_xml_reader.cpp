@@ -144,7 +144,7 @@ void add_set_arrays(VtkCells& cells, const Grid& grid, std::size_t first_cell, c
 
 }  // namespace
 
-MeshFile read_vtk_xml(const std::filesystem::path& file) {
+VtkCells read_vtk_cells(const std::filesystem::path& file) {
   const InputFile input(file);
   const Grid grid = find_arrays(input.bytes(), file);
   const std::size_t points = piece_count(grid, "NumberOfPoints", file);
@@ -169,7 +169,15 @@ MeshFile read_vtk_xml(const std::filesystem::path& file) {
     require_size(cells.types, count, "types", file);
   }
   add_set_arrays(cells, grid, first_cell, file);
-  return mesh_of(cells, file);
+  if (const std::string ids = "PointData/" + std::string(vtk_global_nodes); grid.arrays.contains(ids)) {
+    cells.global_nodes = array(grid, ids, file, vtk_xml::read_integers);
+    require_size(cells.global_nodes, points, std::string(vtk_global_nodes), file);
+  }
+  return cells;
+}
+
+MeshFile read_vtk_xml(const std::filesystem::path& file) {
+  return mesh_of(read_vtk_cells(file), file);
 }
 
 }  // namespace scan2fea

@@ -1,3 +1,4 @@
+#include "export/partition.hpp"
 #include "export/set_names.hpp"
 #include "export/text_output.hpp"
 #include "export/vtk_cells.hpp"
@@ -68,6 +69,12 @@ void write_attribute(TextOutput& out, std::string_view name, const char* centre,
   out << "</Attribute>\n";
 }
 
+void write_parts(TextOutput& out, std::span<const MeshPart> parts) {
+  std::vector<std::uint32_t> part_of;
+  for (std::uint32_t p = 0; p < parts.size(); ++p) part_of.resize(part_of.size() + parts[p].elements, p);
+  write_attribute(out, vtk_part, "Cell", "Int", part_of.size(), [&](std::size_t t) { return part_of[t]; });
+}
+
 // Numbers alone: names are in the tags.
 void write_fields(TextOutput& out, std::span<const Field> fields, const char* centre) {
   for (const Field& field : fields)
@@ -105,6 +112,10 @@ void write_triangles(TextOutput& out, const TetMesh& mesh) {
 
 }  // namespace
 
+std::filesystem::path facets_of_xdmf(std::filesystem::path file) {
+  return file.replace_filename(file.stem().string() + "_facets" + file.extension().string());
+}
+
 Notes write_xdmf(const TetMesh& mesh, const std::filesystem::path& file, const FileOptions& options) {
   Notes notes;
   // `+` joins names, and a comma or a quote would end them.
@@ -114,17 +125,16 @@ Notes write_xdmf(const TetMesh& mesh, const std::filesystem::path& file, const F
   const std::vector<std::string> nodes = names_for(mesh.node_sets, rules, {}, notes);
   const SetParts cell_parts = set_parts(mesh.element_sets, mesh.tetrahedra.size());
   const SetParts facet_parts = set_parts(mesh.face_sets, mesh.boundary.size());
-  std::filesystem::path facets_file = file;
-  facets_file.replace_filename(file.stem().string() + "_facets" + file.extension().string());
   OutputFiles files(options.together);
   {
-    TextOutput out(files.open(file).stream()), facets(files.open(facets_file).stream());
+    TextOutput out(files.open(file).stream()), facets(files.open(facets_of_xdmf(file)).stream());
     begin(out, "Grid", mesh, options);
     write_names(out, cell_parts, elements, 3);
     write_tetrahedra(out, mesh);
     write_points(out, mesh);
     write_attribute(out, "cell_tags", "Cell", "Int", mesh.tetrahedra.size(),
                     [&](std::size_t t) { return cell_parts.part[t]; });
+    if (!options.part_sizes.empty()) write_parts(out, parts_of(mesh, options.part_sizes));
     for (std::size_t s = 0; s < mesh.node_sets.size(); ++s) {
       std::vector<int> is_member(mesh.nodes.size(), 0);
       for (const std::uint32_t n : mesh.node_sets[s].members) is_member[n] = 1;

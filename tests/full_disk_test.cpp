@@ -41,12 +41,12 @@ class FullDisk : public testing::Test {
   }
 
   // What stands on the disk after the conversion of `input`, and what it said.
-  Ran convert(const std::filesystem::path& input, const std::string& name) {
+  Ran convert(const std::filesystem::path& input, const std::string& name, const std::string& flags) {
     const std::string disk = (folder_ / "disk").string();
     return run_apart(folder_.path(), "mount -t tmpfs -o size=64k tmpfs '" + disk + "'\necho earlier > '" + disk + "/" +
                                          name + "'\n'" SCAN2FEA_COMMAND "' convert '" + input.string() + "' -o '" +
-                                         disk + "/" + name + "' --force\ncode=$?\nls -A '" + disk + "'\ncat '" + disk +
-                                         "/" + name + "'\nexit $code\n");
+                                         disk + "/" + name + "' --force " + flags + "\ncode=$?\nls -A '" + disk +
+                                         "'\ncat '" + disk + "/" + name + "'\nexit $code\n");
   }
 
   TemporaryFolder folder_;
@@ -63,7 +63,8 @@ TEST_F(FullDisk, LeavesTheEarlierFileWhateverTheFormat) {
     if (format.write_volume == nullptr && format.write_surface == nullptr) continue;
     const std::string name = format.extension == ".header" ? "mesh.header" : "part" + std::string(format.extension);
     const bool of_volume = format.write_volume != nullptr;
-    const Ran ran = convert(of_volume ? folder_ / "part.inp" : folder_ / "ball.vtp", name);
+    const Ran ran = convert(of_volume ? folder_ / "part.inp" : folder_ / "ball.vtp", name,
+                            format.parts == Parts::never ? "" : "--parts 3");
     EXPECT_EQ(ran.status, 6) << name << ": " << ran.printed;
     EXPECT_THAT(ran.printed, testing::EndsWith("\n" + name + "\nearlier\n")) << name;
     std::printf("%s: %s", name.c_str(), ran.printed.c_str());

@@ -28,6 +28,7 @@ struct ConvertFlags {
   std::optional<std::string> unit, scale;
   std::vector<std::filesystem::path> references;  // several are bodies
   std::optional<DeckKind> deck;
+  std::size_t parts = 0;          // of a volume mesh; 0: it is not divided
   std::vector<std::string> sets;  // NEW=OLD
   MshVersion msh_version = MshVersion::v4_1;
   bool ascii = false;
@@ -82,6 +83,7 @@ void require_usable(const ConvertFlags& flags) {
                       .value = flags.output.extension().string(),
                       .limit = {},
                       .advice = known_volume_formats() + ", " + known_surface_formats_to_write()});
+  require_parts_fit(flags.output, flags.parts);
   const FileFormat& format = *find_format(flags.output);
   if (!flags.references.empty() && !holds_fields(format.volume) && !holds_fields(format.surface))
     throw WrongUsage({.what = "the format holds no distances from a reference",
@@ -132,7 +134,7 @@ void take_reference(const MemoryMesh& given, const ConvertFlags& flags, std::opt
 int convert(ConvertFlags flags) {
   const PipedOutput piped(flags.output, flags.formats.to);
   std::vector<OutputPath> files;
-  if (!piped.is_pipe()) files.push_back({flags.output});
+  if (!piped.is_pipe()) add_outputs(files_of_volume(flags.output, flags.parts), files);
   flags.output = piped.file();
   if (flags.deck && piped.is_pipe())
     throw WrongUsage(
@@ -174,7 +176,8 @@ int convert(ConvertFlags flags) {
                         .limit = {},
                         .advice = "scan2fea tetrahedralize, or scan2fea run"});
     tell(write_mesh(*surface, flags.output, from, options));
-  } else if (const auto& mesh = std::get<TetMesh>(read.mesh); writes_volume(flags.output)) {
+  } else if (auto& mesh = std::get<TetMesh>(read.mesh); writes_volume(flags.output)) {
+    if (const std::string told = divide(mesh, flags.parts, options); !told.empty()) display.line(told);
     if (flags.deck) {
       require_deck(mesh, flags);
       outputs.add(files.back().file, deck_text(mesh, flags.output, *flags.deck, options));
@@ -222,6 +225,7 @@ SubCommand add_convert(CLI::App& root) {
       ->type_name("FILE")
       ->allow_extra_args(false);
   add_deck_flag(*app, flags->deck);
+  add_parts_flag(*app, flags->parts);
   add_msh_version_flag(*app, flags->msh_version);
   add_number_flags(*app, flags->numbering);
   add_display_flags(*app, flags->display);

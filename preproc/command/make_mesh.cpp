@@ -96,6 +96,7 @@ void require_known_format(const MakeMeshJob& job) {
          .value = output.extension().string(),
          .limit = {},
          .advice = job.pipeline.tetrahedralize ? known_volume_formats() : known_surface_formats_to_write()});
+  if (job.pipeline.tetrahedralize) require_parts_fit(output, job.parts);
 }
 
 // What remains of the time limit is for measuring and writing, which take longer the more was made. What does not come
@@ -184,9 +185,13 @@ void require_deck(const MakeMeshJob& job, const Scan& scan) {
   require_for_deck(*job.deck, subject);
 }
 
+std::vector<std::filesystem::path> files_of_mesh(const MakeMeshJob& job) {
+  return job.pipeline.tetrahedralize ? files_of_volume(job.output, job.parts) : std::vector{job.output};
+}
+
 void require_writable_outputs(const MakeMeshJob& job) {
   std::vector<OutputPath> outputs = report_outputs(job.common);
-  if (writes(job) && !job.common.stdout_is_data) outputs.push_back({job.output});
+  if (writes(job) && !job.common.stdout_is_data) add_outputs(files_of_mesh(job), outputs);
   if (job.deck) outputs.push_back({deck_file(job.output, *job.deck)});
   if (job.features.write) outputs.push_back({*job.features.write});
   std::vector<std::filesystem::path> inputs = inputs_of(job.common);
@@ -298,6 +303,8 @@ Subject subject_of(const PipelineResult& result, const SurfaceMesh& boundary, co
 void write_all(PipelineResult& result, const MakeMeshJob& job, ProgressDisplay& display, OutputFiles& outputs) {
   FileOptions options = file_options(job);
   options.together = &outputs;
+  if (result.volume_mesh)
+    if (const std::string told = divide(*result.volume_mesh, job.parts, options); !told.empty()) display.line(told);
   if (job.deck) {
     const std::filesystem::path file = deck_file(job.output, *job.deck);
     outputs.add(file, deck_text(*result.volume_mesh, job.output, *job.deck, options));

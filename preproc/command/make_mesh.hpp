@@ -28,6 +28,7 @@ struct MakeMeshJob {
   JoinOptions joining;                             // of several bodies
   bool one_body = false;                           // whatever groups the input has
   std::optional<DeckKind> deck;
+  std::size_t parts = 0;  // of a volume mesh; 0: it is not divided
   MshVersion msh_version = MshVersion::v4_1;
   NumberFlags numbering;
 };

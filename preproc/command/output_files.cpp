@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <set>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace scan2fea::command {
@@ -18,9 +20,13 @@ namespace fs = std::filesystem;
   throw IoError({std::move(what), where.string(), std::move(value), {}, std::move(advice)});
 }
 
-bool are_same(const fs::path& a, const fs::path& b) {
+// The same for all names of one file or folder, links too.
+std::string identity_of(const fs::path& file) {
+  struct stat status {};
+  if (::stat(file.c_str(), &status) == 0) return std::to_string(status.st_dev) + ":" + std::to_string(status.st_ino);
   std::error_code error;
-  return fs::weakly_canonical(a, error) == fs::weakly_canonical(b, error) || fs::equivalent(a, b, error);
+  const fs::path canonical = fs::weakly_canonical(file, error);
+  return (error ? file : canonical).string();
 }
 
 // The folder that a new file or folder of this name would be made in, or the one that a folder above it would.
@@ -57,6 +63,10 @@ constexpr const char *report_json = "report.json", *report_page = "report.html",
 
 }  // namespace
 
+void add_outputs(const std::vector<fs::path>& files, std::vector<OutputPath>& outputs) {
+  for (const fs::path& file : files) outputs.push_back({file, file.parent_path() != files.back().parent_path()});
+}
+
 std::vector<fs::path> inputs_of(const CommonFlags& flags) {
   std::vector<fs::path> inputs{flags.input};
   if (flags.config) inputs.push_back(*flags.config);
@@ -81,16 +91,20 @@ std::vector<OutputPath> report_outputs(const CommonFlags& flags) {
 }
 
 void require_writable(const std::vector<OutputPath>& outputs, const std::vector<fs::path>& inputs, bool force) {
-  for (std::size_t i = 0; i < outputs.size(); ++i) {
-    const auto is_it = [&](const fs::path& other) { return are_same(outputs[i].file, other); };
-    const auto is_this = [&](const OutputPath& other) {
-      return is_it(other.file) || (other.makes_folder && is_it(other.file.parent_path())) ||
-             (outputs[i].makes_folder && are_same(outputs[i].file.parent_path(), other.file));
-    };
-    const bool is_input = std::any_of(inputs.begin(), inputs.end(), is_it);
-    if (is_input || std::any_of(outputs.begin(), outputs.begin() + static_cast<std::ptrdiff_t>(i), is_this))
+  std::set<std::string> of_inputs, files, folders;
+  for (const fs::path& input : inputs) of_inputs.insert(identity_of(input));
+  for (const OutputPath& output : outputs) {
+    const std::string file = identity_of(output.file);
+    const bool is_input = of_inputs.contains(file);
+    bool is_twice = folders.contains(file) || !files.insert(file).second;
+    if (output.makes_folder) {
+      const std::string folder = identity_of(output.file.parent_path());
+      is_twice = is_twice || files.contains(folder);
+      folders.insert(folder);
+    }
+    if (is_input || is_twice)
       throw WrongUsage({.what = is_input ? "the output is an input" : "two outputs are the same file",
-                        .where = outputs[i].file.string(),
+                        .where = output.file.string(),
                         .value = {},
                         .limit = {},
                         .advice = "another name"});

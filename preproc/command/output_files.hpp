@@ -17,6 +17,9 @@ struct OutputPath {
   bool makes_folder = false;  // where that is missing
 };
 
+// Files of a mesh, those of a folder of their own with that folder.
+void add_outputs(const std::vector<std::filesystem::path>& files, std::vector<OutputPath>& outputs);
+
 // That it reads whatever the sub-command.
 std::vector<std::filesystem::path> inputs_of(const CommonFlags& flags);
 

@@ -1,11 +1,10 @@
 #include "preproc/command/piped_files.hpp"
 
+#include "export/formats.hpp"
 #include "preproc/command/option_text.hpp"
 #include "preproc/mesh/error.hpp"
-#include "preproc/mesh/file_extension.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
@@ -114,8 +113,7 @@ PipedOutput::PipedOutput(const fs::path& output, const std::optional<std::string
                       .advice = is_piped ? "--to inp, or another extension" : "the extension of -o tells the format"});
   if (!is_piped) return;
   const std::string extension = as_extension(*to);
-  constexpr std::array of_several_files{".xdmf", ".header"};
-  if (std::ranges::find(of_several_files, lower_case_extension("x" + extension)) != of_several_files.end())
+  if (files_of_volume("x" + extension, 1).size() > 1)
     throw WrongUsage({.what = "a format of several files cannot go into a pipe",
                       .where = "--to",
                       .value = *to,

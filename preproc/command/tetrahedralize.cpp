@@ -20,6 +20,7 @@ SubCommand add_tetrahedralize(CLI::App& root) {
   add_time_limit_flag(*app, job->time_limit);
   add_effort_flag(*app, job->pipeline);
   add_tetrahedralize_flags(*app, *job->pipeline.tetrahedralize, job->pipeline.order);
+  add_parts_flag(*app, job->parts);
   add_msh_version_flag(*app, job->msh_version);
   add_number_flags(*app, job->numbering);
   return {app, [job] { return make_mesh(*job); }, &job->common};

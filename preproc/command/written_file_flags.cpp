@@ -1,12 +1,35 @@
 #include "preproc/command/written_file_flags.hpp"
 
+#include "export/partition.hpp"
 #include "preproc/command/choice_flag.hpp"
 #include "preproc/command/option_values.hpp"
 
 #include <algorithm>
 #include <cctype>
+#include <cstdint>
+#include <limits>
 
 namespace scan2fea::command {
+
+void add_parts_flag(CLI::App& command, std::size_t& parts) {
+  const OptionGroup group(command, "What files hold");
+  command
+      .add_option(
+          "--parts", parts,
+          "In N parts, one for each process of a parallel solver, divided by METIS: of " + known_formats_of_parts())
+      ->transform(whole_between(1, std::numeric_limits<std::int32_t>::max(), "4"))
+      ->type_name("N");
+}
+
+std::string divide(TetMesh& mesh, std::size_t parts, FileOptions& options) {
+  if (parts == 0) return {};
+  options.part_sizes = order_by_parts(mesh, parts);
+  const auto [least, most] = std::ranges::minmax(options.part_sizes);
+  const std::size_t shared = shared_nodes(mesh.nodes.size(), parts_of(mesh, options.part_sizes));
+  return std::to_string(parts) + " parts of " + std::to_string(least) + " to " + std::to_string(most) +
+         " tetrahedra; " + std::to_string(shared) + " of " + std::to_string(mesh.nodes.size()) +
+         " nodes are in several";
+}
 
 void add_deck_flag(CLI::App& command, std::optional<DeckKind>& deck) {
   const OptionGroup group(command, "What files hold");

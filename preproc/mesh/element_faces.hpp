@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -18,5 +19,10 @@ struct ElementFaces {
 
 // O(n log n).
 ElementFaces find_element_faces(const std::vector<Tetrahedron>& tetrahedra);
+
+inline constexpr std::uint32_t no_element = std::numeric_limits<std::uint32_t>::max();
+
+// For each element those across its faces S1 to S4; no_element where there is none, or more than one. O(n log n).
+std::vector<std::array<std::uint32_t, 4>> element_neighbours(const std::vector<Tetrahedron>& tetrahedra);
 
 }  // namespace scan2fea

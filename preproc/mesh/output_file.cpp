@@ -9,9 +9,11 @@
 #include <atomic>
 #include <cassert>
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <fcntl.h>
 #include <string>
+#include <sys/resource.h>
 #include <unistd.h>
 
 namespace scan2fea {
@@ -90,6 +92,30 @@ fs::path resolved(fs::path target) {
   return error ? target : canonical;
 }
 
+// Processes may open few files, 1024 by default, until they ask for as many as they are allowed.
+void allow_more_open_files() {
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
+  limit.rlim_cur = limit.rlim_max;
+  ::setrlimit(RLIMIT_NOFILE, &limit);
+}
+
+// While one of these lives, none comes through to this thread: what ends the process waits until all files are there.
+class NoSignals {
+ public:
+  NoSignals() {
+    sigset_t all;
+    sigfillset(&all);
+    ::pthread_sigmask(SIG_BLOCK, &all, &before_);
+  }
+  ~NoSignals() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  NoSignals(const NoSignals&) = delete;
+  NoSignals& operator=(const NoSignals&) = delete;
+
+ private:
+  sigset_t before_;
+};
+
 }  // namespace
 
 // The file's permissions are those of any new file, which mkstemp's would not be.
@@ -163,6 +189,9 @@ fs::path OutputFile::readable_path() const {
 }
 
 OutputFile& OutputFiles::open(const fs::path& target, OutputFile::Folder folder) {
+  // Each holds a descriptor until it is in place.
+  constexpr std::size_t many = 200;
+  if (files_.size() == many) allow_more_open_files();
   return files_.emplace_back(target, folder);
 }
 
@@ -174,10 +203,12 @@ void OutputFiles::add(const fs::path& target, const std::string& text, OutputFil
 
 void OutputFiles::commit() {
   for (OutputFile& file : files_) file.finish();
-  if (owner_ != nullptr)
+  if (owner_ != nullptr) {
     owner_->files_.splice(owner_->files_.end(), files_);
-  else
+  } else {
+    const NoSignals no_signals;
     for (OutputFile& file : files_) file.commit();
+  }
   std::error_code ignored;
   for (const fs::path& file : obsolete_) fs::remove(file, ignored);
 }
