@@ -220,13 +220,13 @@ TEST(ManyParts, AreAsManyFilesAsTheyNeed) {
   TetMesh mesh = analytic::tetrahedra_of_box({4, 2, 1}, {8, 8, 8}, 1);
   mesh.boundary = find_boundary(mesh.tetrahedra);
   write_volume(mesh, folder / "part.inp");
-  const std::string target = (folder / "mesh.header").string();
-  const CommandResult made = run_command(
-      "convert '" + (folder / "part.inp").string() + "' -o '" + target + "' --parts 1500", {}, "ulimit -Sn 256;");
-  ASSERT_EQ(made.exit_code, 0) << made.standard_error;
-  std::size_t files = 0;
-  for (const auto& entry : fs::directory_iterator(folder / "partitioning.1500")) files += entry.is_regular_file();
-  EXPECT_EQ(files, 7500U);
+  const std::string input = "convert '" + (folder / "part.inp").string() + "' --parts 1500 -o '";
+  for (const char* name : {"mesh.header", "part.pvtu"}) {
+    const CommandResult made = run_command(input + (folder / name).string() + "'", {}, "ulimit -Sn 256;");
+    ASSERT_EQ(made.exit_code, 0) << made.standard_error;
+  }
+  EXPECT_EQ(names_in(folder / "partitioning.1500").size(), 7500U);
+  EXPECT_EQ(read_volume(folder / "part.pvtu").tetrahedra.size(), mesh.tetrahedra.size());
 }
 
 }  // namespace

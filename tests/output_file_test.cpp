@@ -7,10 +7,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <csignal>
 #include <fcntl.h>
+#include <string>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/time.h>
+#include <unistd.h>
 
 namespace scan2fea {
 namespace {
@@ -152,6 +156,46 @@ TEST(OutputFile, FilesOfOneOutputArePutInPlaceTogether) {
   all.commit();
   EXPECT_EQ(contents(folder / "nodes") + contents(folder / "elements"), "12");
   EXPECT_EQ(files_in(folder), 2u);
+}
+
+std::string first_of_many, last_of_many;
+volatile std::sig_atomic_t seen = 0, seen_in_part = 0;
+
+void look_at_many(int) {
+  const bool first = ::access(first_of_many.c_str(), F_OK) == 0, last = ::access(last_of_many.c_str(), F_OK) == 0;
+  seen = seen + 1;
+  if (first != last) seen_in_part = seen_in_part + 1;
+}
+
+// What a signal that ends the process leaves is all of the files or none.
+TEST(OutputFiles, NoSignalComesBetweenTwoOfThem) {
+  const TemporaryFolder folder;
+  const auto name = [&](int i) { return folder / ("part_" + std::to_string(i) + ".vtu"); };
+  constexpr int count = 500;  // a file each, more than a process may open by default
+  first_of_many = name(0);
+  last_of_many = name(count - 1);
+  rlimit before{}, few{};
+  ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &before), 0);
+  few = {.rlim_cur = std::min<rlim_t>(256, before.rlim_max), .rlim_max = before.rlim_max};
+  ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &few), 0);
+  const auto old_handler = std::signal(SIGALRM, look_at_many);
+  OutputFiles outer;
+  {
+    OutputFiles files(&outer);
+    for (int i = 0; i < count; ++i) files.add(name(i), "text\n");
+    files.commit();
+  }
+  EXPECT_EQ(files_in(folder), 0u);
+  const itimerval often{.it_interval = {0, 50}, .it_value = {0, 50}}, never{};
+  setitimer(ITIMER_REAL, &often, nullptr);
+  outer.commit();
+  while (seen == 0) {
+  }
+  setitimer(ITIMER_REAL, &never, nullptr);
+  std::signal(SIGALRM, old_handler);
+  setrlimit(RLIMIT_NOFILE, &before);
+  EXPECT_EQ(seen_in_part, 0);
+  EXPECT_EQ(files_in(folder), static_cast<std::size_t>(count));
 }
 
 TEST(OutputFile, RefusesAMissingFolder) {

@@ -191,7 +191,9 @@ fs::path OutputFile::readable_path() const {
 OutputFile& OutputFiles::open(const fs::path& target, OutputFile::Folder folder) {
   // Each holds a descriptor until it is in place.
   constexpr std::size_t many = 200;
-  if (files_.size() == many) allow_more_open_files();
+  std::size_t open_files = 0;
+  for (const OutputFiles* files = this; files != nullptr; files = files->owner_) open_files += files->files_.size();
+  if (open_files == many) allow_more_open_files();
   return files_.emplace_back(target, folder);
 }
 

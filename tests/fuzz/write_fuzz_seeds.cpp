@@ -91,7 +91,7 @@ void write_meshes_with_sets(const fs::path& folder) {
   for (const FileFormat& format : file_formats()) {
     const std::string name(format.extension.substr(1));
     const fs::path target = folder / ("read_" + name);
-    if (!fs::exists(target)) continue;  // MED's reader is not ours
+    if (!fs::exists(target) || name == "pvtu") continue;  // MED's reader is not ours; PVTU is of several files
     if (format.write_volume != nullptr) write_volume(mesh, target / ("volume." + name));
     if (format.write_surface != nullptr) write_surface(surface, target / ("surface." + name));
   }
@@ -101,6 +101,13 @@ void write_meshes_with_sets(const fs::path& folder) {
   for (const char* name : {"mesh.nodes", "mesh.elements", "mesh.boundary", "mesh.names"})
     parts += contents(folder / "elmer" / name) + "\f";
   write(folder / "read_elmer/parts", parts);
+  fs::create_directories(folder / "pvtu");
+  FileOptions in_parts;
+  in_parts.part_sizes = {2, static_cast<std::uint32_t>(mesh.tetrahedra.size() - 2)};
+  write_volume(mesh, folder / "pvtu/part.pvtu", in_parts);
+  write(folder / "read_pvtu/parts", contents(folder / "pvtu/part.pvtu") + "\n\f\n" +
+                                        contents(folder / "pvtu/part_0.vtu") + "\n\f\n" +
+                                        contents(folder / "pvtu/part_1.vtu"));
   const std::string points = "POINTS 4 float\n0 0 0 1 0 0 0 1 0 0 0 1\n";
   write(folder / "read_vtk/grid.vtk", "# vtk DataFile Version 3.0\na\nASCII\nDATASET UNSTRUCTURED_GRID\n" + points +
                                           "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n");
@@ -170,10 +177,10 @@ void write_soups(const fs::path& folder) {
 
 void write_seeds(const fs::path& folder) {
   for (const char* target :
-       {"read_stl",   "read_obj",           "read_ply",           "read_off", "read_xyz",  "read_ptx", "read_pcd",
-        "read_las",   "read_inp",           "read_msh",           "read_vtu", "read_vtp",  "read_vtk", "read_3mf",
-        "read_bdf",   "read_unv",           "read_xdmf",          "read_cdb", "read_mail", "read_su2", "read_exo",
-        "read_elmer", "read_feature_lines", "read_configuration", "repair"})
+       {"read_stl",   "read_obj",  "read_ply",           "read_off",           "read_xyz",  "read_ptx", "read_pcd",
+        "read_las",   "read_inp",  "read_msh",           "read_vtu",           "read_vtp",  "read_vtk", "read_3mf",
+        "read_bdf",   "read_unv",  "read_xdmf",          "read_cdb",           "read_mail", "read_su2", "read_exo",
+        "read_elmer", "read_pvtu", "read_feature_lines", "read_configuration", "repair"})
     fs::create_directories(folder / target);
   write_surfaces(folder);
   write_clouds(folder);
