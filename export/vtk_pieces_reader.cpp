@@ -127,8 +127,7 @@ MeshFile read_pvtu(const fs::path& file) {
     numbers.insert(numbers.end(), cells.global_nodes.begin(), cells.global_nodes.end());
   }
   std::ranges::sort(numbers);
-  const auto repeated = std::ranges::unique(numbers);
-  numbers.erase(repeated.begin(), repeated.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
   VtkCells whole;
   whole.unit = index.unit;
   Merger merger(whole, std::move(numbers), file);

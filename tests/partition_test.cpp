@@ -108,7 +108,7 @@ TEST(Partition, OfOnePartAndOfAsManyAsElements) {
       EXPECT_LE(std::ranges::max(sizes) - std::ranges::min(sizes), 1U) << parts;
     }
   }
-  const WrongUsage error = error_from<WrongUsage>([&] { partition(tetrahedra, tetrahedra.size() + 1); });
+  const auto error = error_from<WrongUsage>([&] { partition(tetrahedra, tetrahedra.size() + 1); });
   EXPECT_THAT(error.what(), testing::HasSubstr("more parts than tetrahedra"));
   EXPECT_THAT(error.what(), testing::HasSubstr("(limit: 72)"));
   EXPECT_THROW(partition(tetrahedra, 0), WrongUsage);
@@ -116,7 +116,7 @@ TEST(Partition, OfOnePartAndOfAsManyAsElements) {
 
 TEST(Partition, RefusesMoreThanNumbersOf32BitsCount) {
   EXPECT_NO_THROW(require_partition(536870911, 1000));
-  const WrongUsage error = error_from<WrongUsage>([] { require_partition(536870912, 1000); });
+  const auto error = error_from<WrongUsage>([] { require_partition(536870912, 1000); });
   EXPECT_THAT(error.what(), testing::HasSubstr("536870912 (limit: 536870911)"));
 }
 
