@@ -18,13 +18,13 @@
 namespace scan2fea::command {
 namespace {
 
-constexpr int interrupted = 130, out_of_time = 4;
+constexpr int interrupted = 130, out_of_time = 4, input_is_invalid = 3;
 
 // What a signal handler looks at.
 pthread_t main_thread;
 std::atomic<bool> is_done{false};
 using Line = std::array<char, 1024>;
-Line line_when_interrupted{}, line_when_out_of_time{};
+Line line_when_interrupted{}, line_when_out_of_time{}, line_when_shortened{};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch lock-free atomics only");
 
 void say(std::string_view text) {
@@ -44,6 +44,14 @@ void end(int signal) {
   ::_exit(signal == SIGALRM ? out_of_time : interrupted);
 }
 
+// In whichever thread reads: there is no going on for it.
+void end_by_shortened_input(int) {
+  remove_unfinished_outputs();
+  end_console();
+  say(line_when_shortened.data());
+  ::_exit(input_is_invalid);
+}
+
 // Where it is too long, nothing but its end is lost.
 void set_line(std::string_view text, Line& line) {
   std::string whole = console_line(LineKind::error, text);
@@ -53,12 +61,16 @@ void set_line(std::string_view text, Line& line) {
   line[whole.size()] = '\0';
 }
 
-void call_end_on(int signal) {
+void call_on(int signal, void (*handler)(int)) {
   struct sigaction action {};
-  action.sa_handler = end;
+  action.sa_handler = handler;
   action.sa_flags = SA_RESTART;
   sigfillset(&action.sa_mask);
   sigaction(signal, &action, nullptr);
+}
+
+void call_end_on(int signal) {
+  call_on(signal, end);
 }
 
 bool is_ignored(int signal) {
@@ -71,6 +83,8 @@ bool is_ignored(int signal) {
 void end_on_interrupts() {
   main_thread = pthread_self();
   set_line("interrupted", line_when_interrupted);
+  set_line("an input was shortened by another program while it was read; try: again", line_when_shortened);
+  call_on(SIGBUS, end_by_shortened_input);
   call_end_on(SIGINT);
   call_end_on(SIGTERM);
   if (!is_ignored(SIGHUP)) call_end_on(SIGHUP);  // as nohup asks for

@@ -9,8 +9,9 @@
 
 namespace scan2fea::command {
 
-// To be called by the main thread. From here on SIGINT, SIGTERM and SIGHUP end the process with exit code 130, and what
-// would end it without one (a pipe that nobody reads, a limit on the size of files) is an error of the write instead.
+// To be called by the main thread. From here on SIGINT, SIGTERM and SIGHUP end the process with exit code 130, an input
+// that another program shortens while it is read (input_file.hpp) ends it with 3, and what would end it without a code
+// (a pipe that nobody reads, a limit on the size of files) is an error of the write instead.
 void end_on_interrupts();
 
 // After so much time from now the process ends with exit code 4 and this error on stderr.

@@ -59,6 +59,7 @@ void add_time_limit_flag(CLI::App& command, std::optional<double>& seconds);
 void add_force_flag(CLI::App& command, bool& force);             // of all that take no common flags
 void add_display_flags(CLI::App& command, DisplayFlags& flags);  // the same
 void add_size_flags(CLI::App& command, SizeFlags& flags);
+void add_thinning_flag(CLI::App& command, std::optional<std::size_t>& largest_scan);  // which it sets
 // Groups of options that count for some inputs only.
 inline constexpr const char *clouds_group = "Clouds", *enrichment_group = "Enrichment",
                             *bodies_group = "Several bodies";

@@ -138,6 +138,7 @@ std::vector<std::string> warnings_of(const Scan& scan, const CommonFlags& flags)
 }
 
 void describe_inputs(const ReadInputs& inputs, const MakeMeshJob& job, ProgressDisplay& display) {
+  for (const StageRecord& stage : inputs.stages) display.line(describe_stage(stage, display.is_verbose()));
   if (inputs.bodies.empty()) display.line(describe(inputs.scan, job.common));
   for (const Body& body : inputs.bodies) {
     CommonFlags named = job.common;
@@ -148,6 +149,7 @@ void describe_inputs(const ReadInputs& inputs, const MakeMeshJob& job, ProgressD
     for (const std::string& warning : warnings) warn(shown_name(job.common.input) + ": " + warning);
   };
   tell(inputs.notes);
+  for (const StageRecord& stage : inputs.stages) tell(stage.warnings);
   tell(unused_options(job, inputs));
   tell(warnings_of(inputs.scan, job.common));
 }
@@ -338,6 +340,7 @@ void add_surface_flags(CLI::App& command, MakeMeshJob& job) {
   add_to_flag(command, job.common.formats.to);
   add_time_limit_flag(command, job.time_limit);
   add_size_flags(command, job.size);
+  add_thinning_flag(command, job.largest_scan);
   add_reconstruct_flags(command, job.pipeline.reconstruct);
   add_repair_flags(command, *job.pipeline.repair);
   {
@@ -365,7 +368,7 @@ int make_mesh(MakeMeshJob job) {
 
   display.expect(expected_stages(job, expected_work(job)));
   display.begin("read");
-  ReadInputs inputs = read_inputs(job);
+  ReadInputs inputs = read_inputs(job, progress);
   Scan& scan = inputs.scan;
   parse_sets(job);
   require_deck(job, scan);
@@ -373,6 +376,7 @@ int make_mesh(MakeMeshJob job) {
   settle_options(job);
   require_lengths_within(box_of(scan, inputs.bodies), job);
   PipelineResult result = run_naming_input(scan, std::move(inputs.bodies), job, progress, display);
+  result.stages.insert(result.stages.begin(), inputs.stages.begin(), inputs.stages.end());
   tell_what_was_left_out(result, job);
   for (const WeakPlace& place : result.weak_places)
     warn(shown_name(job.common.input) + ": " + place.describe() + "; a solver may refuse it");

@@ -27,6 +27,7 @@ struct MakeMeshJob {
   std::vector<std::filesystem::path> more_bodies;  // besides the input, which then is one, too
   JoinOptions joining;                             // of several bodies
   bool one_body = false;                           // whatever groups the input has
+  std::optional<std::size_t> largest_scan;         // triangles; larger ones are thinned. Without, none is
   std::optional<DeckKind> deck;
   std::size_t parts = 0;  // of a volume mesh; 0: it is not divided
   MshVersion msh_version = MshVersion::v4_1;

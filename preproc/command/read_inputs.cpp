@@ -6,9 +6,11 @@
 #include "preproc/command/body_inputs.hpp"
 #include "preproc/command/caller.hpp"
 #include "preproc/command/console.hpp"
+#include "preproc/command/large_scans.hpp"
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/read_surface.hpp"
 
+#include <chrono>
 #include <utility>
 
 namespace scan2fea::command {
@@ -32,8 +34,21 @@ NamedScan scan_in(const MemoryMesh& given, MakeMeshJob& job) {
   return points;
 }
 
+NamedScan read_scan_file(const std::filesystem::path& file, const MakeMeshJob& job, const Progress& progress,
+                         ReadInputs& inputs) {
+  if (!job.largest_scan) return read_named_scan(file);
+  const Progress::Clock::time_point start = Progress::Clock::now();
+  ThinnedScan read = read_thinned_scan(file, thinning_limit(job), progress);
+  if (read.thinning) {
+    const std::chrono::duration<double> seconds = Progress::Clock::now() - start;
+    inputs.thinned.push_back(*read.thinning);
+    inputs.stages.push_back(describe(*read.thinning, seconds.count()));
+  }
+  return std::move(read.scan);
+}
+
 // The input, and then more bodies: in the formats of meshes, too, with the names that come with a surface.
-NamedScan read_file(std::size_t place, MakeMeshJob& job) {
+NamedScan read_file(std::size_t place, MakeMeshJob& job, const Progress& progress, ReadInputs& inputs) {
   if (job.common.caller != nullptr)
     if (const MemoryMesh* given = job.common.caller->input(place)) return scan_in(*given, job);
   const std::filesystem::path& input = place == 0 ? job.common.input : job.more_bodies[place - 1];
@@ -47,7 +62,7 @@ NamedScan read_file(std::size_t place, MakeMeshJob& job) {
   } else if (job.takes_clouds == TakesClouds::no) {
     read.mesh = read_named_surface(file);
   } else {
-    NamedScan scan = read_named_scan(file);
+    NamedScan scan = read_scan_file(file, job, progress, inputs);
     if (auto* cloud = std::get_if<PointCloud>(&scan)) return std::move(*cloud);
     read.mesh = std::get<NamedSurface>(std::move(scan));
   }
@@ -55,8 +70,8 @@ NamedScan read_file(std::size_t place, MakeMeshJob& job) {
   return with_unit(std::get<NamedSurface>(std::move(read.mesh)), input, job);
 }
 
-Scan read_input(MakeMeshJob& job) {
-  NamedScan read = read_file(0, job);
+Scan read_input(MakeMeshJob& job, const Progress& progress, ReadInputs& inputs) {
+  NamedScan read = read_file(0, job, progress, inputs);
   if (auto* cloud = std::get_if<PointCloud>(&read)) return std::move(*cloud);
   auto& surface = std::get<NamedSurface>(read);
   job.pipeline.given_sets = std::move(surface.face_sets);
@@ -72,11 +87,11 @@ Scan read_input(MakeMeshJob& job) {
 }
 
 // The surfaces of more files, added to the first one's, with their sets.
-void add_to_one_body(MakeMeshJob& job, Scan& first) {
+void add_to_one_body(MakeMeshJob& job, const Progress& progress, ReadInputs& inputs) {
   for (std::size_t i = 0; i < job.more_bodies.size(); ++i) {
-    const NamedScan read = read_file(i + 1, job);
+    const NamedScan read = read_file(i + 1, job, progress, inputs);
     const auto* more = std::get_if<NamedSurface>(&read);
-    auto* mesh = std::get_if<SurfaceMesh>(&first);
+    auto* mesh = std::get_if<SurfaceMesh>(&inputs.scan);
     if (more == nullptr || mesh == nullptr) refuse_cloud(more == nullptr ? job.more_bodies[i] : job.common.input);
     const auto triangles = static_cast<std::uint32_t>(mesh->triangles.size());
     append(*mesh, more->mesh);
@@ -89,8 +104,9 @@ void add_to_one_body(MakeMeshJob& job, Scan& first) {
 }
 
 // Of the files, where there are several, or else of the groups of the only one; none where that is one body.
-std::vector<Body> read_bodies(MakeMeshJob& job, const Scan& first, Notes& notes) {
-  const auto* mesh = std::get_if<SurfaceMesh>(&first);
+std::vector<Body> read_bodies(MakeMeshJob& job, const Progress& progress, ReadInputs& inputs) {
+  const auto* mesh = std::get_if<SurfaceMesh>(&inputs.scan);
+  Notes& notes = inputs.notes;
   if (job.one_body) return {};
   if (job.more_bodies.empty())
     return mesh == nullptr ? std::vector<Body>() : bodies_of_groups(*mesh, job.pipeline.given_sets, notes);
@@ -99,7 +115,7 @@ std::vector<Body> read_bodies(MakeMeshJob& job, const Scan& first, Notes& notes)
   const std::vector<std::string> names = body_names(files, notes);
   std::vector<Body> bodies;
   for (std::size_t b = 0; b < files.size(); ++b) {
-    const NamedScan read = b == 0 ? NamedScan() : read_file(b, job);
+    const NamedScan read = b == 0 ? NamedScan() : read_file(b, job, progress, inputs);
     const auto* surface = std::get_if<NamedSurface>(&read);
     if (b == 0 ? mesh == nullptr : surface == nullptr) refuse_cloud(files[b]);
     bodies.push_back({names[b], b == 0 ? *mesh : surface->mesh});
@@ -107,12 +123,21 @@ std::vector<Body> read_bodies(MakeMeshJob& job, const Scan& first, Notes& notes)
   return bodies;
 }
 
+double triangles_of(const ReadInputs& inputs) {
+  double triangles = 0;
+  for (const Body& body : inputs.bodies) triangles += static_cast<double>(body.surface.triangles.size());
+  const auto* mesh = std::get_if<SurfaceMesh>(&inputs.scan);
+  return inputs.bodies.empty() && mesh != nullptr ? static_cast<double>(mesh->triangles.size()) : triangles;
+}
+
 }  // namespace
 
-ReadInputs read_inputs(MakeMeshJob& job) {
-  ReadInputs inputs{.scan = read_input(job), .bodies = {}, .notes = {}};
-  if (job.one_body) add_to_one_body(job, inputs.scan);
-  inputs.bodies = read_bodies(job, inputs.scan, inputs.notes);
+ReadInputs read_inputs(MakeMeshJob& job, const Progress& progress) {
+  ReadInputs inputs;
+  inputs.scan = read_input(job, progress, inputs);
+  if (job.one_body) add_to_one_body(job, progress, inputs);
+  inputs.bodies = read_bodies(job, progress, inputs);
+  if (!inputs.thinned.empty()) adapt_to_thinned(inputs.thinned, triangles_of(inputs), job);
   return inputs;
 }
 

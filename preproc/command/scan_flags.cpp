@@ -2,6 +2,7 @@
 #include "preproc/command/choice_flag.hpp"
 #include "preproc/command/flags.hpp"
 #include "preproc/command/repeated_flag.hpp"
+#include "preproc/surface/thinning/read_thinned_scan.hpp"
 
 #include <algorithm>
 
@@ -40,6 +41,15 @@ void add_reconstruct_flags(CLI::App& command, ReconstructOptions& options) {
   add_repeated(command, "--scanner", 3, "X Y Z", "Where the scanner stood, whatever the cloud tells",
                [&options](const double* v) { options.scanners.emplace_back(v[0], v[1], v[2]); })
       ->delimiter(',');
+}
+
+void add_thinning_flag(CLI::App& command, std::optional<std::size_t>& largest_scan) {
+  largest_scan = ThinningLimit{}.least;
+  const OptionGroup group(command, "Files");
+  command.add_option("--largest-scan", largest_scan, "Thin a scan of more triangles to so many while it is read")
+      ->default_str("8000000, or four times what is asked for")
+      ->transform(whole_between(1000, 1'000'000'000, "8000000"))
+      ->type_name("N");
 }
 
 void add_repair_flags(CLI::App& command, RepairOptions& options) {

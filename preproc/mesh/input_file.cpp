@@ -7,8 +7,11 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <fcntl.h>
 #include <fstream>
 #include <sstream>
+#include <sys/mman.h>
+#include <unistd.h>
 
 namespace scan2fea {
 
@@ -30,17 +33,40 @@ void InputFile::read() {
   if (std::filesystem::is_regular_file(status)) {
     const std::uintmax_t size = std::filesystem::file_size(path_, error);
     if (error) fail("the file cannot be read", error.message());
-    bytes_ = std::make_unique_for_overwrite<char[]>(size);
-    stream.read(bytes_.get(), static_cast<std::streamsize>(size));
+    constexpr std::uintmax_t too_large_to_read_whole = 1U << 30;
+    if (size >= too_large_to_read_whole && map(size)) return;
+    auto bytes = std::make_unique_for_overwrite<char[]>(size);
+    stream.read(bytes.get(), static_cast<std::streamsize>(size));
     size_ = static_cast<std::size_t>(stream.gcount());
+    bytes_ = {bytes.release(), ReleaseBytes{}};
   } else {  // a pipe does not know its size
     std::ostringstream all;
     all << stream.rdbuf();
     size_ = all.view().size();
-    bytes_ = std::make_unique_for_overwrite<char[]>(size_);
-    std::copy(all.view().begin(), all.view().end(), bytes_.get());
+    auto bytes = std::make_unique_for_overwrite<char[]>(size_);
+    std::copy(all.view().begin(), all.view().end(), bytes.get());
+    bytes_ = {bytes.release(), ReleaseBytes{}};
   }
   if (stream.bad()) fail("the file cannot be read", std::strerror(errno));
+}
+
+// False where the file's system cannot.
+bool InputFile::map(std::size_t size) {
+  const int file = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return false;
+  void* bytes = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file, 0);
+  ::close(file);
+  if (bytes == MAP_FAILED) return false;
+  bytes_ = {static_cast<const char*>(bytes), ReleaseBytes{size}};
+  size_ = size;
+  return true;
+}
+
+void ReleaseBytes::operator()(const char* bytes) const {
+  if (mapped > 0)
+    ::munmap(const_cast<char*>(bytes), mapped);
+  else
+    delete[] bytes;
 }
 
 // A gzip file is one member behind another.
@@ -59,7 +85,7 @@ void InputFile::expand() {
     std::copy_n(expanded.get(), size, larger.get());
     expanded = std::move(larger);
   }
-  bytes_ = std::move(expanded);
+  bytes_ = {expanded.release(), ReleaseBytes{}};
   size_ = size;
 }
 

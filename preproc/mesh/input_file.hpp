@@ -1,4 +1,4 @@
-// One input file, whole in memory, and the errors about what it holds.
+// One input file, and the errors about what it holds.
 #pragma once
 
 #include <filesystem>
@@ -8,8 +8,16 @@
 
 namespace scan2fea {
 
+// Gives back what new[] gave, or mmap where `mapped` bytes are.
+struct ReleaseBytes {
+  std::size_t mapped = 0;
+  void operator()(const char* bytes) const;
+};
+
 // Read whole rather than mapped: a mapped file that another program shortens meanwhile ends the process with SIGBUS,
-// and a pipe cannot be mapped. What is compressed by gzip is expanded, whatever the file is called.
+// and a pipe cannot be mapped. Files of a gigabyte and more are mapped all the same, since memory may not hold them: a
+// process should then end on SIGBUS with a message. What is compressed by gzip is expanded, whatever the file is
+// called.
 class InputFile {
  public:
   // Throws InvalidInput where the file is missing, a directory, unreadable, empty, or broken gzip; NotMeshable where
@@ -30,10 +38,11 @@ class InputFile {
 
  private:
   void read();
+  bool map(std::size_t size);
   void expand();
 
   std::filesystem::path path_;
-  std::unique_ptr<char[]> bytes_;
+  std::unique_ptr<const char[], ReleaseBytes> bytes_;
   std::size_t size_ = 0;
 };
 

@@ -60,17 +60,31 @@ PointCloud read_cloud(const std::filesystem::path& path) {
                  is_cloud_format(file) ? read_cloud_format(file) : points_of(file, read_faces_and_vertices(file)));
 }
 
-NamedScan read_named_scan(const std::filesystem::path& path) {
-  const InputFile file(path);
-  if (is_cloud_format(file)) return checked(file, read_cloud_format(file));
+bool ScanFile::is_of_points() const {
+  return is_cloud_format(file_);
+}
+
+NamedScan ScanFile::read() const {
+  if (is_of_points()) return checked(file_, read_cloud_format(file_));
   NamedSurface surface;
-  surface.mesh = read_faces_and_vertices(file, &surface.face_sets);
+  surface.mesh = read_faces_and_vertices(file_, &surface.face_sets);
   if (!surface.mesh.triangles.empty()) {
-    surface.unit = unit_in_head(file);
+    surface.unit = unit_in_head(file_);
     return surface;
   }
-  if (surface.mesh.vertices.empty()) file.fail("the file holds no faces and no points");
-  return checked(file, points_of(file, std::move(surface.mesh)));
+  if (surface.mesh.vertices.empty()) file_.fail("the file holds no faces and no points");
+  return checked(file_, points_of(file_, std::move(surface.mesh)));
+}
+
+NamedSurface ScanFile::read_in_blocks(const TakeBlock& take) const {
+  NamedSurface surface;
+  read_faces_and_vertices(file_, &surface.face_sets, take);
+  surface.unit = unit_in_head(file_);
+  return surface;
+}
+
+NamedScan read_named_scan(const std::filesystem::path& path) {
+  return ScanFile(path).read();
 }
 
 Scan read_scan(const std::filesystem::path& path) {

@@ -2,6 +2,7 @@
 #include "preproc/mesh/polygon.hpp"
 #include "preproc/mesh/surface_formats.hpp"
 #include "preproc/mesh/text_scanner.hpp"
+#include "preproc/mesh/triangle_rows.hpp"
 
 #include <limits>
 
@@ -67,7 +68,7 @@ class Names {
   std::vector<std::size_t> groups_, object_, material_;
 };
 
-void read_faces(TextScanner line, SurfaceMesh& mesh, std::vector<NamedSet>& sets) {
+void read_faces(TextScanner line, TriangleRows& rows, std::vector<NamedSet>& sets) {
   std::size_t vertices_so_far = 0;
   Names names(sets);
   std::vector<std::uint32_t> corners;
@@ -78,25 +79,26 @@ void read_faces(TextScanner line, SurfaceMesh& mesh, std::vector<NamedSet>& sets
     names.take(keyword, line);
     if (keyword != "f") continue;
     corners.clear();
-    while (line.skip_blanks()) corners.push_back(read_corner(line, vertices_so_far, mesh.vertices.size()));
+    while (line.skip_blanks()) corners.push_back(read_corner(line, vertices_so_far, rows.mesh.vertices.size()));
     if (corners.size() < 3) line.fail(start, "a face has too few corners", std::to_string(corners.size()), "3");
-    const std::size_t before = mesh.triangles.size();
-    append_polygon(mesh, corners);
-    names.add(before, mesh.triangles.size());
+    const std::size_t before = rows.count();
+    append_polygon(rows.mesh, corners);
+    names.add(before, rows.count());
+    rows.end_row();
   }
 }
 
 }  // namespace
 
 // Vertices first, then faces: a face may name vertices that stand behind it, and cutting a polygon needs their places.
-SurfaceMesh read_obj(const InputFile& file, std::vector<NamedSet>* sets) {
-  SurfaceMesh mesh;
-  read_vectors(TextScanner(file), "v", mesh.vertices);
+SurfaceMesh read_obj(const InputFile& file, std::vector<NamedSet>* sets, const TakeBlock& take) {
+  TriangleRows rows(take);
+  read_vectors(TextScanner(file), "v", rows.mesh.vertices);
   std::vector<NamedSet> named;
-  read_faces(TextScanner(file), mesh, named);
+  read_faces(TextScanner(file), rows, named);
   std::erase_if(named, [](const NamedSet& set) { return set.members.empty(); });
   if (sets != nullptr) *sets = std::move(named);
-  return mesh;
+  return rows.finish();
 }
 
 PointCloud read_obj_points(const InputFile& file) {

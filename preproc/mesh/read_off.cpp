@@ -1,6 +1,7 @@
 #include "preproc/mesh/polygon.hpp"
 #include "preproc/mesh/surface_formats.hpp"
 #include "preproc/mesh/text_scanner.hpp"
+#include "preproc/mesh/triangle_rows.hpp"
 #include "preproc/mesh/truncated.hpp"
 
 #include <algorithm>
@@ -60,21 +61,22 @@ bool is_off(const InputFile& file) {
   return scanner.skip_space() && is_magic(scanner.word());
 }
 
-SurfaceMesh read_off(const InputFile& file) {
+SurfaceMesh read_off(const InputFile& file, const TakeBlock& take) {
   TextScanner scanner(file);
   read_magic(scanner);
   const std::size_t vertices = read_count(scanner, "vertices", shortest_vertex);
   const std::size_t faces = read_count(scanner, "faces", shortest_face);
   scanner.skip_line();  // the number of edges, which nobody keeps right
 
-  SurfaceMesh mesh;
+  TriangleRows rows(take);
+  SurfaceMesh& mesh = rows.mesh;
   mesh.vertices.reserve(vertices);
   for (std::size_t v = 0; v < vertices; ++v, scanner.skip_line()) {
     to_row(scanner, "vertex", v, vertices);
     mesh.vertices.push_back(scanner.point());  // normals, colours and texture may follow
   }
 
-  mesh.triangles.reserve(faces);
+  mesh.triangles.reserve(rows.at_once(faces));
   std::vector<std::uint32_t> corners;
   for (std::size_t f = 0; f < faces; ++f, scanner.skip_line()) {
     to_row(scanner, "face", f, faces);
@@ -91,8 +93,9 @@ SurfaceMesh read_off(const InputFile& file) {
       corners.push_back(static_cast<std::uint32_t>(index));
     }
     append_polygon(mesh, corners);  // a colour may follow
+    rows.end_row();
   }
-  return mesh;
+  return rows.finish();
 }
 
 }  // namespace scan2fea

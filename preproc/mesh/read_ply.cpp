@@ -4,6 +4,7 @@
 #include "preproc/mesh/polygon.hpp"
 #include "preproc/mesh/surface_formats.hpp"
 #include "preproc/mesh/text_scanner.hpp"
+#include "preproc/mesh/triangle_rows.hpp"
 #include "preproc/mesh/truncated.hpp"
 
 #include <algorithm>
@@ -182,7 +183,8 @@ class Labels {
 template <class Body>
 class BodyReader {
  public:
-  BodyReader(const InputFile& file, const PlyHeader& header) : file_(file), header_(header), body_(file, header) {}
+  BodyReader(const InputFile& file, const PlyHeader& header, const TakeBlock& take = {})
+      : file_(file), header_(header), body_(file, header), rows_(take) {}
 
   PointCloud points() {
     const PlyElement& vertex = vertex_element();
@@ -223,7 +225,7 @@ class BodyReader {
       read_faces(*element);
     }
     if (sets != nullptr) *sets = labels_.take();
-    return std::move(mesh_);
+    return rows_.finish();
   }
 
  private:
@@ -300,13 +302,13 @@ class BodyReader {
     const bool strips = element.name == "tristrips";
     if (!strips) {
       constexpr std::uint64_t shortest_row = 4;  // a length and three corners
-      mesh_.triangles.reserve(std::min(element.count, body_.values_left(PlyType::int8) / shortest_row));
+      mesh_.triangles.reserve(rows_.at_once(std::min(element.count, body_.values_left(PlyType::int8) / shortest_row)));
     }
     for (const PlyProperty& property : element.properties)
       if (is_vertex_list(property) && !is_integer(property.type))
         file_.fail_at_line(element.declared_at, "the vertex indices are not whole numbers");
     for (std::uint64_t row = 0; row < element.count; ++row) {
-      const std::size_t before = mesh_.triangles.size();
+      const std::size_t before = rows_.count();
       for (const PlyProperty& property : element.properties) {
         if (is_label(property)) {
           body_.position();
@@ -319,7 +321,8 @@ class BodyReader {
           read_polygon(property);
         }
       }
-      labels_.end_row(before, mesh_.triangles.size());
+      labels_.end_row(before, rows_.count());
+      rows_.end_row();
     }
   }
 
@@ -369,7 +372,8 @@ class BodyReader {
   const InputFile& file_;
   const PlyHeader& header_;
   Body body_;
-  SurfaceMesh mesh_;
+  TriangleRows rows_;
+  SurfaceMesh& mesh_ = rows_.mesh;
   bool keeps_normals_ = false;
   std::vector<Vec3> normals_;
   std::vector<std::uint32_t> corners_;
@@ -389,10 +393,10 @@ PointCloud read_ply_points(const InputFile& file) {
   return BodyReader<BinaryBody>(file, header).points();
 }
 
-SurfaceMesh read_ply(const InputFile& file, std::vector<NamedSet>* sets) {
+SurfaceMesh read_ply(const InputFile& file, std::vector<NamedSet>* sets, const TakeBlock& take) {
   const PlyHeader header = read_ply_header(file);
-  if (header.format == PlyFormat::ascii) return BodyReader<TextBody>(file, header).run(sets);
-  return BodyReader<BinaryBody>(file, header).run(sets);
+  if (header.format == PlyFormat::ascii) return BodyReader<TextBody>(file, header, take).run(sets);
+  return BodyReader<BinaryBody>(file, header, take).run(sets);
 }
 
 }  // namespace scan2fea

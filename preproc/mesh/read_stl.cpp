@@ -1,12 +1,13 @@
 #include "preproc/mesh/byte_order.hpp"
 #include "preproc/mesh/surface_formats.hpp"
 #include "preproc/mesh/text_scanner.hpp"
+#include "preproc/mesh/triangle_rows.hpp"
 #include "preproc/mesh/truncated.hpp"
 #include "preproc/mesh/vertex_welder.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <limits>
 
 namespace scan2fea {
 namespace {
@@ -40,7 +41,39 @@ Vec3 read_corner(const InputFile& file, const char* at) {
   return point;
 }
 
-SurfaceMesh read_binary(const InputFile& file) {
+// The corners of facets welded: with a block of triangles its vertices go, too.
+class Facets {
+ public:
+  Facets(std::size_t expected, const TakeBlock& take)
+      : rows_(take), expected_(rows_.at_once(expected)), welder_(vertices_of(expected_)) {
+    rows_.mesh.triangles.reserve(expected_);
+  }
+
+  std::size_t count() const { return rows_.count(); }
+  void prefetch(const Vec3& corner) const { welder_.prefetch(corner); }
+  std::uint32_t vertex_at(const Vec3& corner) { return welder_.add(corner); }
+  void add(const Triangle& facet) {
+    rows_.mesh.triangles.push_back(facet);
+    if (!rows_.is_block()) return;
+    rows_.mesh.vertices = welder_.take_vertices();
+    rows_.hand_over();
+    welder_ = VertexWelder(vertices_of(expected_));
+  }
+  SurfaceMesh finish() {
+    rows_.mesh.vertices = welder_.take_vertices();
+    return rows_.finish();
+  }
+
+ private:
+  // As many as a closed surface of genus 0 has.
+  static std::size_t vertices_of(std::size_t triangles) { return triangles / 2 + 2; }
+
+  TriangleRows rows_;
+  std::size_t expected_;
+  VertexWelder welder_;
+};
+
+SurfaceMesh read_binary(const InputFile& file, const TakeBlock& take) {
   const std::string_view bytes = file.bytes();
   if (bytes.size() < header_size)
     file.fail("neither an ASCII STL nor long enough for a binary one", std::to_string(bytes.size()) + " bytes",
@@ -54,9 +87,7 @@ SurfaceMesh read_binary(const InputFile& file) {
     file.fail_at_byte(bytes.data() + count_offset, "the file holds more triangles than its header says",
                       std::to_string(held), std::to_string(promised), "exporting the scan again");
 
-  SurfaceMesh mesh;
-  mesh.triangles.reserve(promised);
-  VertexWelder welder(promised / 2 + 2);  // as many as a closed surface of genus 0 has
+  Facets facets(promised, take);
   const auto point = [&](std::size_t t, std::size_t k) {
     return read_corner(file, bytes.data() + header_size + t * triangle_size + corner_offset + k * corner_size);
   };
@@ -64,36 +95,35 @@ SurfaceMesh read_binary(const InputFile& file) {
   constexpr std::size_t ahead = 8;
   for (std::size_t t = 0; t < promised; ++t) {
     if (t + ahead < promised)
-      for (std::size_t k = 0; k < 3; ++k) welder.prefetch(point(t + ahead, k));
-    mesh.triangles.push_back({welder.add(point(t, 0)), welder.add(point(t, 1)), welder.add(point(t, 2))});
+      for (std::size_t k = 0; k < 3; ++k) facets.prefetch(point(t + ahead, k));
+    facets.add({facets.vertex_at(point(t, 0)), facets.vertex_at(point(t, 1)), facets.vertex_at(point(t, 2))});
   }
-  mesh.vertices = welder.take_vertices();
-  return mesh;
+  return facets.finish();
 }
 
 // Line by line: the keywords that hold nothing (`outer loop`, normals, names) are passed over.
-SurfaceMesh read_ascii(const InputFile& file, std::vector<NamedSet>* sets) {
-  SurfaceMesh mesh;
-  VertexWelder welder(0);
+SurfaceMesh read_ascii(const InputFile& file, std::vector<NamedSet>* sets, const TakeBlock& take) {
+  Facets facets(0, take);
   Triangle corners{};
   std::size_t count = 0;
   bool inside_solid = false;
-  std::optional<std::size_t> solid;  // of `sets`
+  constexpr std::size_t no_set = std::numeric_limits<std::size_t>::max();
+  std::size_t solid = no_set;  // of `sets`
   TextScanner line(file);
   for (; line.skip_space(); line.skip_line()) {
     const char* start = line.position();
     const std::string_view keyword = line.word();
     if (is_keyword(keyword, "vertex")) {
       if (count == 3) line.fail(start, "a facet has more than three vertices", {}, {}, "triangulating the surface");
-      corners[count++] = welder.add(line.point());
+      corners[count++] = facets.vertex_at(line.point());
     } else if (is_keyword(keyword, "endfacet")) {
       if (count != 3) line.fail(start, "a facet ends before its third vertex", std::to_string(count), "3");
-      if (solid) (*sets)[*solid].members.push_back(static_cast<std::uint32_t>(mesh.triangles.size()));
-      mesh.triangles.push_back(corners);
+      if (solid != no_set) (*sets)[solid].members.push_back(static_cast<std::uint32_t>(facets.count()));
+      facets.add(corners);
       count = 0;
     } else if (is_keyword(keyword, "solid") || is_keyword(keyword, "endsolid")) {
       inside_solid = is_keyword(keyword, "solid");
-      solid.reset();
+      solid = no_set;
       if (sets != nullptr && inside_solid && line.skip_blanks()) solid = find_or_add_set(*sets, line.word());
       if (count != 0) line.fail(start, "a solid begins or ends inside a facet");
     } else if (!is_keyword(keyword, "facet") && !is_keyword(keyword, "outer") && !is_keyword(keyword, "endloop")) {
@@ -103,9 +133,8 @@ SurfaceMesh read_ascii(const InputFile& file, std::vector<NamedSet>* sets) {
   }
   if (inside_solid) line.fail(line.position(), "the file ends before endsolid", {}, {}, truncated_advice);
   // One solid is the whole, whatever it is called: programs write their own name there.
-  if (sets != nullptr && sets->size() == 1 && sets->front().members.size() == mesh.triangles.size()) sets->clear();
-  mesh.vertices = welder.take_vertices();
-  return mesh;
+  if (sets != nullptr && sets->size() == 1 && sets->front().members.size() == facets.count()) sets->clear();
+  return facets.finish();
 }
 
 }  // namespace
@@ -115,8 +144,8 @@ bool is_binary_stl(const InputFile& file) {
   return bytes.size() > header_size && bytes.size() == header_size + triangle_size * promised_triangles(bytes);
 }
 
-SurfaceMesh read_stl(const InputFile& file, std::vector<NamedSet>* sets) {
-  return is_binary_stl(file) || !looks_like_text(file.bytes()) ? read_binary(file) : read_ascii(file, sets);
+SurfaceMesh read_stl(const InputFile& file, std::vector<NamedSet>* sets, const TakeBlock& take) {
+  return is_binary_stl(file) || !looks_like_text(file.bytes()) ? read_binary(file, take) : read_ascii(file, sets, take);
 }
 
 }  // namespace scan2fea

@@ -9,15 +9,15 @@
 
 namespace scan2fea {
 
-SurfaceMesh read_faces_and_vertices(const InputFile& file, std::vector<NamedSet>* sets) {
-  if (is_ply(file)) return read_ply(file, sets);
-  if (is_off(file)) return read_off(file);
-  if (is_binary_stl(file)) return read_stl(file, sets);
+SurfaceMesh read_faces_and_vertices(const InputFile& file, std::vector<NamedSet>* sets, const TakeBlock& take) {
+  if (is_ply(file)) return read_ply(file, sets, take);
+  if (is_off(file)) return read_off(file, take);
+  if (is_binary_stl(file)) return read_stl(file, sets, take);
   const std::string extension = extension_of_content(file.path());
-  if (extension == ".stl") return read_stl(file, sets);
-  if (extension == ".obj") return read_obj(file, sets);
-  if (extension == ".ply") return read_ply(file, sets);
-  if (extension == ".off") return read_off(file);
+  if (extension == ".stl") return read_stl(file, sets, take);
+  if (extension == ".obj") return read_obj(file, sets, take);
+  if (extension == ".ply") return read_ply(file, sets, take);
+  if (extension == ".off") return read_off(file, take);
   file.fail(
       "neither the content nor the extension tells a surface format", extension, ".stl, .obj, .ply or .off",
       is_cloud_format(file) ? "scan2fea reconstruct, since this is a point cloud" : "converting it to one of these");

@@ -5,6 +5,7 @@
 #include "preproc/mesh/surface_mesh.hpp"
 
 #include <filesystem>
+#include <functional>
 
 namespace scan2fea {
 
@@ -16,8 +17,11 @@ namespace scan2fea {
 // O(n) for n bytes; memory is bounded by a small multiple of the file's size, whatever its header says.
 SurfaceMesh read_surface(const std::filesystem::path& file);
 
-// With the names in it, of faces (ASCII STL: solids; OBJ: groups, objects and materials; PLY: labels), and the unit of a comment
-// that `write_surface` wrote.
+// With the names in it, of faces (ASCII STL: solids; OBJ: groups, objects and materials; PLY: labels), and the unit of
+// a comment that `write_surface` wrote.
 NamedSurface read_named_surface(const std::filesystem::path& file);
+
+// Some triangles of a file, those after the block before, with vertices among which theirs are.
+using TakeBlock = std::function<void(const SurfaceMesh& block)>;
 
 }  // namespace scan2fea

@@ -1,5 +1,6 @@
-// subdivide IN OUT LEVELS: Loop's subdivision of a closed surface, four times the triangles a level, to have large
-// scans of a real shape for tests/benchmark/scale_table.
+// subdivide IN OUT LEVELS [NOISE]: Loop's subdivision of a closed surface, four times the triangles a level, to have
+// large scans of a real shape for tests/benchmark/scale_table; NOISE: of each coordinate, a normal deviate in per cent
+// of the diagonal.
 #include "preproc/mesh/read_surface.hpp"
 #include "preproc/mesh/write_surface.hpp"
 
@@ -10,6 +11,7 @@
 #include <cstdlib>
 #include <exception>
 #include <numbers>
+#include <random>
 #include <vector>
 
 namespace {
@@ -67,16 +69,24 @@ SurfaceMesh subdivided(const SurfaceMesh& mesh) {
   return fine;
 }
 
+void add_noise(SurfaceMesh& mesh, double percent) {
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> noise(0, percent / 100 * bounding_box(mesh.vertices).diagonal());
+  for (Vec3& p : mesh.vertices)
+    for (double& coordinate : p) coordinate += noise(random);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 4) {
-    std::fprintf(stderr, "subdivide IN OUT LEVELS\n");
+  if (argc != 4 && argc != 5) {
+    std::fprintf(stderr, "subdivide IN OUT LEVELS [NOISE]\n");
     return 2;
   }
   try {
     SurfaceMesh mesh = read_surface(argv[1]);
     for (int level = std::atoi(argv[3]); level > 0; --level) mesh = subdivided(mesh);
+    if (argc == 5 && std::atof(argv[4]) > 0) add_noise(mesh, std::atof(argv[4]));
     write_surface(mesh, argv[2]);
     return 0;
   } catch (const std::exception& e) {

@@ -1,0 +1,139 @@
+#include "preproc/surface/thinning/read_thinned_scan.hpp"
+
+#include "preproc/mesh/error.hpp"
+#include "preproc/mesh/error_text.hpp"
+#include "preproc/surface/thinning/cluster_seeds.hpp"
+#include "preproc/surface/thinning/vertex_clusters.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace scan2fea {
+namespace {
+
+class Measured {
+ public:
+  void add(const SurfaceMesh& block) {
+    for (const Triangle& t : block.triangles) {
+      for (const std::uint32_t v : t) {
+        low_ = low_.cwiseMin(block.vertices[v]);
+        high_ = high_.cwiseMax(block.vertices[v]);
+      }
+      scan_.area += area_vector(block, t).norm() / 2;
+    }
+    scan_.triangles += block.triangles.size();
+  }
+  GivenScan scan() const {
+    GivenScan scan = scan_;
+    if (scan.triangles > 0) scan.box = {low_, high_};
+    return scan;
+  }
+
+ private:
+  GivenScan scan_;
+  Vec3 low_ = Vec3::Constant(std::numeric_limits<double>::infinity());
+  Vec3 high_ = -low_;
+};
+
+// A plane in any direction goes through one and a half cells in the area of a cell's side, on average; two thirds of
+// them are seeds, each of which stands for two triangles.
+double cell_for(std::size_t triangles, const GivenScan& scan) {
+  constexpr double triangles_a_side = 2, smallest_of_diagonal = 1e-6;
+  return std::max(std::sqrt(triangles_a_side * scan.area / static_cast<double>(triangles)),
+                  smallest_of_diagonal * scan.box.diagonal());
+}
+
+// The file read once more, `take` being told of each block. Half of the progress is for either time.
+NamedSurface read_again(const ScanFile& file, const GivenScan& given, double done, const Progress& progress,
+                        const TakeBlock& take) {
+  std::uint64_t seen = 0;
+  return file.read_in_blocks([&](const SurfaceMesh& block) {
+    seen += block.triangles.size();
+    progress("read", done + 0.5 * static_cast<double>(seen) / static_cast<double>(given.triangles));
+    take(block);
+  });
+}
+
+// What is thick because it bends is four times as thick in cells twice as wide; noise stays.
+double noise_of(const ClusterSeeds& seeds) {
+  const double narrow = seeds.widened(2).thickness(), wide = seeds.widened(4).thickness();
+  return std::sqrt(std::max(0.0, (16 * narrow * narrow - wide * wide) / 15));
+}
+
+// Dust fills more cells than its area tells, and noise that is as large as they are makes folds of them: both get wider
+// ones, these not wider than where the noise was looked at, nor than `fewest` triangles need.
+ClusterSeeds seeds_for(const ScanFile& file, const GivenScan& given, std::size_t most, std::size_t fewest,
+                       const Progress& progress) {
+  constexpr double usual_cells_a_triangle = 0.75, too_many = 1.5, wider = 1.5;
+  const double largest = too_many * usual_cells_a_triangle * static_cast<double>(most);
+  ClusterSeeds seeds(given.box, cell_for(most, given));
+  read_again(file, given, 0, progress, [&](const SurfaceMesh& block) {
+    seeds.add(block);
+    while (static_cast<double>(seeds.cells()) > largest) seeds = seeds.widened(wider);
+  });
+  constexpr double of_noise = 10, widest = 4;
+  const double for_fewest = cell_for(std::max<std::size_t>(1, fewest), given) / seeds.cell();
+  const double times = std::min({of_noise * noise_of(seeds) / seeds.cell(), widest, for_fewest});
+  if (times > 1) seeds = seeds.widened(times);
+  seeds.choose();
+  return seeds;
+}
+
+struct Thinned {
+  NamedSurface surface;
+  Thinning thinning;
+};
+
+Thinned thin(const ScanFile& file, const GivenScan& given, const ThinningLimit& limit, const Progress& progress) {
+  const std::size_t fewest = limit.of ? limit.of(given) : 0, most = std::max(limit.least, fewest);
+  ClusterSeeds seeds = seeds_for(file, given, most, fewest, progress);
+  const double cell = seeds.cell();
+  VertexClusters clusters(std::move(seeds));
+  NamedSurface named = read_again(file, given, 0.5, progress, [&](const SurfaceMesh& block) { clusters.add(block); });
+  ThinnedSurface thinned = std::move(clusters).surface();
+  if (thinned.mesh.triangles.empty())
+    throw NotMeshable({.what = "nothing of the scan is wider than the cells to which it is thinned",
+                       .where = {},
+                       .value = error_text(cell),
+                       .limit = {},
+                       .advice = "--largest-scan " + std::to_string(10 * most)});
+  named.face_sets = carried_sets(named.face_sets, thinned.origin);
+  named.mesh = std::move(thinned.mesh);
+  const std::size_t left = named.mesh.triangles.size();
+  return {std::move(named),
+          {.given = given,
+           .triangles = left,
+           .cell = cell,
+           .largest_distance = thinned.largest_distance,
+           .farthest = thinned.farthest}};
+}
+
+}  // namespace
+
+ThinnedScan read_thinned_scan(const std::filesystem::path& path, const ThinningLimit& limit, const Progress& progress) {
+  // The index by which a strip of PLY grows, where vertices are too many for two bytes.
+  constexpr std::size_t shortest_triangle = 4;
+  const ScanFile file(path);
+  if (file.is_of_points() || file.bytes() / shortest_triangle <= limit.least)
+    return {.scan = file.read(), .thinning = {}};
+  Measured measured;
+  file.read_in_blocks([&](const SurfaceMesh& block) {
+    progress("read", 0);
+    measured.add(block);
+  });
+  const GivenScan given = measured.scan();
+  if (given.triangles > limit.least && !(given.area > 0))
+    throw NotMeshable({.what = "the triangles of the scan have no area",
+                       .where = {},
+                       .value = std::to_string(given.triangles) + " triangles",
+                       .limit = {},
+                       .advice = "exporting the scan again"});
+  if (given.triangles <= limit.least || (limit.of && given.triangles <= limit.of(given)))
+    return {.scan = file.read(), .thinning = {}};
+  Thinned thinned = thin(file, given, limit, progress);
+  return {.scan = std::move(thinned.surface), .thinning = thinned.thinning};
+}
+
+}  // namespace scan2fea

@@ -1,0 +1,48 @@
+// Reads scans of any size: those of more triangles than a chain can hold are thinned while they are read.
+#pragma once
+
+#include "preproc/mesh/progress.hpp"
+#include "preproc/mesh/read_cloud.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+
+namespace scan2fea {
+
+// What a scan is like as it is given.
+struct GivenScan {
+  std::uint64_t triangles = 0;
+  BoundingBox box;
+  double area = 0;
+};
+
+struct Thinning {
+  GivenScan given;
+  std::size_t triangles = 0;     // that are left
+  double cell = 0;               // about how far vertices are apart (cluster_seeds.hpp), model units
+  double largest_distance = 0;   // bound between the two surfaces
+  Vec3 farthest = Vec3::Zero();  // where it is reached
+};
+
+struct ThinnedScan {
+  NamedScan scan;
+  std::optional<Thinning> thinning;  // nothing where the scan is as the file has it
+};
+
+// About how many triangles are left of a scan of more: `least`, or `of` it where that is more. Fewer, down to `of` and
+// a sixteenth of `least`, where noise is too large for cells of that size: they get ten times as wide as it is.
+struct ThinningLimit {
+  std::size_t least = 8'000'000;
+  std::function<std::size_t(const GivenScan&)> of = {};
+};
+
+// `read_named_scan` otherwise; clouds are never thinned here. A file that may hold more triangles is gone through three
+// times, and memory holds what read_cloud.hpp says of blocks, and 150 bytes for each triangle that is left. Sets of
+// triangles are carried. Throws what readers throw, NotMeshable where nothing is left, and Cancelled.
+ThinnedScan read_thinned_scan(const std::filesystem::path& path, const ThinningLimit& limit = {},
+                              const Progress& progress = {});
+
+}  // namespace scan2fea
