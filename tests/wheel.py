@@ -30,6 +30,29 @@ if __name__ == "__main__":
 '''
 
 
+# PyVista's way to find the accessor, from 0.48 on.
+PYVISTA = """
+import importlib.metadata, sys
+import numpy, pyvista
+
+for point in importlib.metadata.entry_points(group="pyvista.accessors"):
+    point.load()
+import scan2fea
+
+scan = scan2fea.to_pyvista(scan2fea.read(sys.argv[1]))
+quads = pyvista.PolyData(  # a cube
+    numpy.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)], float),
+    [4, 0, 2, 3, 1, 4, 4, 5, 7, 6, 4, 0, 1, 5, 4, 4, 1, 3, 7, 5, 4, 3, 2, 6, 7, 4, 2, 0, 4, 6])
+surface = scan.scan2fea.surface(faces=800, quiet=True)
+mesh = surface.scan2fea.tetrahedralize()
+figures = mesh.scan2fea.check(reference=scan2fea.from_pyvista(surface)).figures
+assert abs(figures["deviation"]["volume_difference_pct"]) < 1e-6, figures["deviation"]
+assert type(mesh).__name__ == "UnstructuredGrid" and type(surface).__name__ == "PolyData"
+assert abs(quads.scan2fea.check().figures["surface"]["volume"] - 1) < 1e-12
+print(len(mesh.celltypes))
+"""
+
+
 def run(*line, **keywords):
     done = subprocess.run(line, capture_output=True, text=True, check=False, **keywords)
     expect(done.returncode == 0, f"{' '.join(line)} ends with {done.returncode}:\n{done.stdout[-3000:]}{done.stderr}")
@@ -68,6 +91,15 @@ def main():
             run(asked.command, "run", scan, "-o", made, "--faces", faces, "--unit", "mm", "--force", "--quiet")
             expect(contents(made) == contents(os.path.join(folder, f"part{faces}.inp")),
                    f"the mesh of {faces} faces has the command's bytes")
+
+        # Where there is none, a stand-in of its interface.
+        stand_ins = os.path.join(os.path.dirname(os.path.abspath(__file__)), "stand_ins")
+        with open(os.path.join(folder, "pyvista_use.py"), "w", encoding="utf-8") as use:
+            use.write(PYVISTA)
+        has_pyvista = subprocess.run([python, "-c", "import pyvista"], capture_output=True, check=False).returncode == 0
+        told = run(python, "pyvista_use.py", scan, cwd=folder,
+                   env={**os.environ, **({} if has_pyvista else {"PYTHONPATH": stand_ins})})
+        expect(told.strip().isdigit(), f"datasets of PyVista have the functions: {told}")
 
         if shutil.which("mypy"):
             typed = os.path.join(folder, "typed.py")

@@ -31,6 +31,12 @@ def _metadata():
             f"Requires-Dist: {_in_pyproject('dependencies')}\n")
 
 
+def _entry_points():
+    group = re.search(r'^\[project\.entry-points\."([^"]+)"\]\n(.*)', (PROJECT / "pyproject.toml").read_text("utf-8"),
+                      re.MULTILINE | re.DOTALL)
+    return f"[{group[1]}]\n" + group[2].replace('"', "")
+
+
 # The package in the build folder, with TetGen's worker and MED's module beside the module.
 def _build():
     environment = {**os.environ, "CCACHE_BASEDIR": str(PROJECT), "CCACHE_NOHASHDIR": "1"}
@@ -55,6 +61,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     entries += [(f"{described}/{name}", text.encode(), 0o644) for name, text in (
         ("METADATA", _metadata()),
         ("WHEEL", f"Wheel-Version: 1.0\nGenerator: scan2fea\nRoot-Is-Purelib: false\nTag: {tag}\n"),
+        ("entry_points.txt", _entry_points()),
         ("LICENSE", (PROJECT / "LICENSE").read_text("utf-8")))]
     record = "".join(
         f"{name},sha256={base64.urlsafe_b64encode(hashlib.sha256(content).digest()).decode().rstrip('=')},{len(content)}\n"
