@@ -93,6 +93,36 @@ TEST(VertexClusters, EdgesOfACubeStaySharp) {
   EXPECT_NEAR(enclosed_volume(thin.mesh), 1, 2e-3);
 }
 
+// Also where cells were widened by little, and what was in one lies in two.
+TEST(ClusterSeeds, EveryVertexHasOneNearBy) {
+  const SurfaceMesh ball = with_noise(analytic::sphere(1, 6), 0.005);
+  for (const double times : {1.0, 1.05, 1.3, 1.9, 4.0}) {
+    ClusterSeeds seeds(bounding_box(ball.vertices), 0.05);
+    seeds.add(ball);
+    seeds = seeds.widened(times);
+    seeds.choose();
+    for (const Vec3& p : ball.vertices) {
+      const Vec3 in_cells = seeds.in_cells(p);
+      const std::uint32_t seed = seeds.nearest(in_cells);
+      ASSERT_LT(seed, seeds.count());
+      EXPECT_LT((seeds.seed(seed) - in_cells).norm(), std::sqrt(3) + 0.6);
+    }
+  }
+}
+
+// What bends as a ball does is not thick for cells far smaller than it; noise is, whatever the cells.
+TEST(ClusterSeeds, ThicknessIsNoise) {
+  const double sigma = 0.004;
+  SurfaceMesh ball = analytic::sphere(1, 7);
+  std::mt19937 random(1);
+  std::normal_distribution<double> noise(0, sigma);
+  for (Vec3& p : ball.vertices) p += noise(random) * p;
+  ClusterSeeds seeds(bounding_box(ball.vertices), 0.02);
+  seeds.add(ball);
+  EXPECT_NEAR(seeds.widened(4).thickness(), sigma, 0.2 * sigma);
+  EXPECT_NEAR(seeds.widened(8).thickness(), sigma, 0.2 * sigma);
+}
+
 TEST(VertexClusters, BlocksAreAsGoodAsTheWhole) {
   const SurfaceMesh ball = analytic::sphere(1, 5);
   VertexClusters clusters(seeds_of(ball, 0.1));

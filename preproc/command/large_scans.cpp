@@ -20,6 +20,12 @@ double wanted_triangles(const SizeFlags& size, const GivenScan& scan) {
   return 0;
 }
 
+// So that each triangle stands for several of the scan; more than any file holds is as good as all.
+std::size_t needed_triangles(const SizeFlags& size, const GivenScan& scan) {
+  constexpr double a_wanted = 4, all = 1e15;
+  return static_cast<std::size_t>(std::min(all, a_wanted * wanted_triangles(size, scan)));
+}
+
 // Two digits, rounded up.
 std::string rounded_up(double number) {
   const double unit = std::pow(10, std::floor(std::log10(number)) - 1);
@@ -42,10 +48,8 @@ std::string rounded_up(double number) {
 }  // namespace
 
 ThinningLimit thinning_limit(const MakeMeshJob& job) {
-  constexpr double of_wanted = 4;
-  return {.least = *job.largest_scan / (1 + job.more_bodies.size()), .of = [size = job.size](const GivenScan& scan) {
-            return static_cast<std::size_t>(of_wanted * wanted_triangles(size, scan));
-          }};
+  return {.least = *job.largest_scan / (1 + job.more_bodies.size()),
+          .of = [size = job.size](const GivenScan& scan) { return needed_triangles(size, scan); }};
 }
 
 StageRecord describe(const Thinning& thinning, double seconds) {

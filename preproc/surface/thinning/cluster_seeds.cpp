@@ -17,15 +17,16 @@ namespace {
 using Place = SparseGrid::Place;
 constexpr std::uint32_t none = SparseGrid::none;
 
-// The first cells along the axes are 1, so that there are some before them, which hold nothing.
+// The first cells along the axes are 2, so that there are some before them, which hold nothing.
+constexpr std::uint32_t first = 2;
 Place place_of(const Vec3& in_cells) {
   Place place;
-  for (std::size_t k = 0; k < 3; ++k) place[k] = 1 + static_cast<std::uint32_t>(in_cells[static_cast<int>(k)]);
+  for (std::size_t k = 0; k < 3; ++k) place[k] = first + static_cast<std::uint32_t>(in_cells[static_cast<int>(k)]);
   return place;
 }
 
 Vec3 corner_of(const Place& place) {
-  return Vec3(place[0], place[1], place[2]) - Vec3::Ones();
+  return Vec3(place[0], place[1], place[2]) - Vec3::Constant(first);
 }
 
 constexpr std::array<std::array<int, 2>, 6> products{{{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}}};
@@ -121,7 +122,7 @@ void ClusterSeeds::for_each_about(const Vec3& in_cells, Visit&& visit) const {
   // From the place, along each axis, to the cells before it, its own, and those behind it, squared.
   std::array<std::array<double, 3>, 3> gap;
   for (std::size_t k = 0; k < 3; ++k) {
-    const double from_low = in_cells[static_cast<int>(k)] - (own[k] - 1.0), to_high = 1 - from_low;
+    const double from_low = in_cells[static_cast<int>(k)] - (own[k] - double{first}), to_high = 1 - from_low;
     gap[k] = {from_low * from_low, 0, to_high * to_high};
   }
   double reach = std::numeric_limits<double>::infinity();
@@ -168,15 +169,25 @@ void ClusterSeeds::choose() {
 }
 
 std::uint32_t ClusterSeeds::nearest(const Vec3& in_cells) const {
-  std::uint32_t best = 0;
+  std::uint32_t best = none;
   double least = std::numeric_limits<double>::infinity();
-  for_each_about(in_cells, [&](std::uint32_t seed, double squared) {
+  const auto look = [&](std::uint32_t seed, double squared) {
     if (squared < least) {
       least = squared;
       best = seed;
     }
     return least;
-  });
+  };
+  for_each_about(in_cells, look);
+  if (best != none) return best;
+  // The mean of what was a cell before all were widened may lie in the next one, and its seed's, which crowded it out,
+  // in the one behind.
+  const Place own = place_of(in_cells);
+  for (std::uint32_t x = own[0] - 2; x <= own[0] + 2; ++x)
+    for (std::uint32_t y = own[1] - 2; y <= own[1] + 2; ++y)
+      for (std::uint32_t z = own[2] - 2; z <= own[2] + 2; ++z)
+        if (const std::uint32_t seed = numbers_.find({x, y, z}); seed != none)
+          look(seed, (seeds_[seed] - in_cells).squaredNorm());
   return best;
 }
 

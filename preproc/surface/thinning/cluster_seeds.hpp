@@ -43,7 +43,7 @@ class ClusterSeeds {
 
   std::size_t count() const { return seeds_.size(); }
   const Vec3& seed(std::uint32_t s) const { return seeds_[s]; }
-  // Among the seeds in the cell of a place of the surface and in those about it, of which there is one at least.
+  // Among the seeds in the cell of a place of the surface and in those about it; there is always one.
   std::uint32_t nearest(const Vec3& in_cells) const;
 
  private:

@@ -87,8 +87,8 @@ struct Thinned {
 };
 
 Thinned thin(const ScanFile& file, const GivenScan& given, const ThinningLimit& limit, const Progress& progress) {
-  const std::size_t fewest = limit.of ? limit.of(given) : 0, most = std::max(limit.least, fewest);
-  ClusterSeeds seeds = seeds_for(file, given, most, fewest, progress);
+  const std::size_t fewest = limit.of ? limit.of(given) : 0;
+  ClusterSeeds seeds = seeds_for(file, given, std::max(limit.least, fewest), fewest, progress);
   const double cell = seeds.cell();
   VertexClusters clusters(std::move(seeds));
   NamedSurface named = read_again(file, given, 0.5, progress, [&](const SurfaceMesh& block) { clusters.add(block); });
@@ -98,7 +98,7 @@ Thinned thin(const ScanFile& file, const GivenScan& given, const ThinningLimit& 
                        .where = {},
                        .value = error_text(cell),
                        .limit = {},
-                       .advice = "--largest-scan " + std::to_string(10 * most)});
+                       .advice = "--largest-scan " + std::to_string(given.triangles)});
   named.face_sets = carried_sets(named.face_sets, thinned.origin);
   named.mesh = std::move(thinned.mesh);
   const std::size_t left = named.mesh.triangles.size();
