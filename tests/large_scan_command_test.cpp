@@ -26,7 +26,7 @@ class LargeScanCommand : public testing::Test {
 };
 
 TEST_F(LargeScanCommand, TellsWhatWasThinned) {
-  const CommandResult result = surface("--largest-scan 20000 --faces 2000 --quiet");
+  const CommandResult result = surface("--largest-scan 50000 --faces 2000 --quiet");
   ASSERT_EQ(result.exit_code, 0) << result.standard_error;
   const auto figures = nlohmann::json::parse(contents(folder / "figures.json"));
   const auto& stage = figures.at("stages").at(0);
@@ -37,7 +37,7 @@ TEST_F(LargeScanCommand, TellsWhatWasThinned) {
 }
 
 TEST_F(LargeScanCommand, AShareIsOfWhatWasGiven) {
-  ASSERT_EQ(surface("--largest-scan 20000 --ratio 0.05").exit_code, 0);
+  ASSERT_EQ(surface("--largest-scan 50000 --ratio 0.05").exit_code, 0);
   const double triangles = static_cast<double>(read_surface(folder / "out.ply").triangles.size());
   EXPECT_NEAR(triangles, 3000, 150);
 }
@@ -50,7 +50,7 @@ TEST_F(LargeScanCommand, KeepsEnoughForWhatIsAskedFor) {
 }
 
 TEST_F(LargeScanCommand, ADistanceCountsFromWhatWasGiven) {
-  const CommandResult result = surface("--largest-scan 10000 --deviation 0.001");
+  const CommandResult result = surface("--largest-scan 40000 --deviation 0.001");
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.standard_error, HasSubstr("more than half of the distance"));
   EXPECT_THAT(result.standard_error, HasSubstr("--largest-scan "));

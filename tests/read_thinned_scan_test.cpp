@@ -34,7 +34,7 @@ TEST(ReadThinnedScan, IsTheSameFromEveryFormat) {
   const TemporaryFolder folder;
   const auto read_as = [&](const std::string& name, bool ascii) {
     write_surface(torus, folder / name, {.measured = {}, .unit = {}, .face_sets = {}, .ascii = ascii});
-    return read_thinned_scan(folder / name, {.least = 5000});
+    return read_thinned_scan(folder / name, {.largest = 20000});
   };
   const ThinnedScan first = read_as("torus.ply", false);
   ASSERT_TRUE(first.thinning);
@@ -58,9 +58,9 @@ TEST(ReadThinnedScan, IsTheWholeBelowTheLimit) {
   const SurfaceMesh torus = torus_of_floats();
   const TemporaryFolder folder;
   write_surface(torus, folder / "torus.ply");
-  for (const std::size_t least : {torus.triangles.size(), std::size_t{1000}}) {
+  for (const std::size_t largest : {torus.triangles.size(), std::size_t{1000}}) {
     const ThinnedScan read = read_thinned_scan(
-        folder / "torus.ply", {.least = least, .of = [](const GivenScan& scan) { return scan.triangles; }});
+        folder / "torus.ply", {.largest = largest, .needed = [](const GivenScan& scan) { return scan.triangles; }});
     EXPECT_FALSE(read.thinning);
     EXPECT_EQ(mesh_of(read).vertices, torus.vertices);
     EXPECT_EQ(mesh_of(read).triangles, torus.triangles);
@@ -75,7 +75,7 @@ TEST(ReadThinnedScan, NamesStay) {
     (centroid(torus, torus.triangles[t]).x() < 0 ? left : right).members.push_back(t);
   const TemporaryFolder folder;
   write_surface(torus, folder / "torus.obj", {.measured = {}, .unit = "mm", .face_sets = {left, right}});
-  const ThinnedScan read = read_thinned_scan(folder / "torus.obj", {.least = 5000});
+  const ThinnedScan read = read_thinned_scan(folder / "torus.obj", {.largest = 20000});
   ASSERT_TRUE(read.thinning);
   const auto& surface = std::get<NamedSurface>(read.scan);
   EXPECT_EQ(surface.unit, "mm");
@@ -99,12 +99,12 @@ TEST(ReadThinnedScan, NoiseGetsCellsTenTimesAsWide) {
   for (Vec3& p : ball.vertices) p += noise(random) * p;
   const TemporaryFolder folder;
   write_surface(ball, folder / "ball.ply");
-  const ThinnedScan read = read_thinned_scan(folder / "ball.ply", {.least = 40000});
+  const ThinnedScan read = read_thinned_scan(folder / "ball.ply", {.largest = 160000});
   ASSERT_TRUE(read.thinning);
   EXPECT_NEAR(read.thinning->cell, 10 * sigma, 2 * sigma);
   // But for those that are asked for.
   const ThinnedScan more =
-      read_thinned_scan(folder / "ball.ply", {.least = 40000, .of = [](const GivenScan&) { return 40000; }});
+      read_thinned_scan(folder / "ball.ply", {.largest = 160000, .needed = [](const GivenScan&) { return 40000; }});
   EXPECT_GT(more.thinning->triangles, 30000u);
 }
 
@@ -119,7 +119,7 @@ TEST(ReadThinnedScan, DustDoesNotFillMemory) {
   }
   const TemporaryFolder folder;
   write_surface(dust, folder / "dust.stl");
-  const ThinnedScan read = read_thinned_scan(folder / "dust.stl", {.least = 2000});
+  const ThinnedScan read = read_thinned_scan(folder / "dust.stl", {.largest = 8000});
   ASSERT_TRUE(read.thinning);
   EXPECT_LT(mesh_of(read).vertices.size(), 1500u);
 }
@@ -127,7 +127,7 @@ TEST(ReadThinnedScan, DustDoesNotFillMemory) {
 TEST(ReadThinnedScan, WhatIsTooThinForItsCellsIsRefused) {
   const TemporaryFolder folder;
   write_surface(analytic::box({10, 10, 1e-4}, 0.05), folder / "foil.stl");
-  EXPECT_THROW(read_thinned_scan(folder / "foil.stl", {.least = 1000}), NotMeshable);
+  EXPECT_THROW(read_thinned_scan(folder / "foil.stl", {.largest = 4000}), NotMeshable);
 }
 
 }  // namespace

@@ -37,19 +37,20 @@ std::string rounded_up(double number) {
 // The distance grows with the cells, the triangles fall with their square.
 [[noreturn]] void refuse_distance(const Thinning& thinning, double asked) {
   const double times = 2 * thinning.largest_distance / asked;
-  throw WrongUsage(
-      {.what = "the scan was thinned, which takes more than half of the distance",
-       .where = "--deviation",
-       .value = error_text(asked),
-       .limit = error_text(2 * thinning.largest_distance),
-       .advice = "--largest-scan " + rounded_up(1.2 * times * times * static_cast<double>(thinning.triangles))});
+  throw WrongUsage({.what = "the scan was thinned, which takes more than half of the distance",
+                    .where = "--deviation",
+                    .value = error_text(asked),
+                    .limit = error_text(2 * thinning.largest_distance),
+                    .advice = "--largest-scan " +
+                              rounded_up(std::min(1.2 * 4 * times * times * static_cast<double>(thinning.triangles),
+                                                  static_cast<double>(thinning.given.triangles)))});
 }
 
 }  // namespace
 
 ThinningLimit thinning_limit(const MakeMeshJob& job) {
-  return {.least = *job.largest_scan / (1 + job.more_bodies.size()),
-          .of = [size = job.size](const GivenScan& scan) { return needed_triangles(size, scan); }};
+  return {.largest = *job.largest_scan / (1 + job.more_bodies.size()),
+          .needed = [size = job.size](const GivenScan& scan) { return needed_triangles(size, scan); }};
 }
 
 StageRecord describe(const Thinning& thinning, double seconds) {

@@ -8,8 +8,7 @@
 
 namespace scan2fea::command {
 
-// Of one of the job's files: --largest-scan, and four times the triangles that are asked for at least, so that each
-// stands for several of the scan.
+// Of one of the job's files: --largest-scan, and four times the triangles that are asked for.
 ThinningLimit thinning_limit(const MakeMeshJob& job);
 
 // For people, gates and reports.

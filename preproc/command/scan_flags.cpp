@@ -44,10 +44,12 @@ void add_reconstruct_flags(CLI::App& command, ReconstructOptions& options) {
 }
 
 void add_thinning_flag(CLI::App& command, std::optional<std::size_t>& largest_scan) {
-  largest_scan = ThinningLimit{}.least;
+  largest_scan = ThinningLimit{}.largest;
   const OptionGroup group(command, "Files");
-  command.add_option("--largest-scan", largest_scan, "Thin a scan of more triangles to so many while it is read")
-      ->default_str("8000000, or four times what is asked for")
+  command
+      .add_option(
+          "--largest-scan", largest_scan,
+          "Thin a scan of more triangles to a quarter of so many while it is read, or four times what is asked for")
       ->transform(whole_between(1000, 1'000'000'000, "8000000"))
       ->type_name("N");
 }

@@ -63,8 +63,8 @@ double noise_of(const ClusterSeeds& seeds) {
 }
 
 // Dust fills more cells than its area tells, and noise that is as large as they are makes folds of them: both get wider
-// ones, these not wider than where the noise was looked at, nor than `fewest` triangles need.
-ClusterSeeds seeds_for(const ScanFile& file, const GivenScan& given, std::size_t most, std::size_t fewest,
+// ones, these not wider than where the noise was looked at, nor than `needed` triangles are.
+ClusterSeeds seeds_for(const ScanFile& file, const GivenScan& given, std::size_t most, std::size_t needed,
                        const Progress& progress) {
   constexpr double usual_cells_a_triangle = 0.75, too_many = 1.5, wider = 1.5;
   const double largest = too_many * usual_cells_a_triangle * static_cast<double>(most);
@@ -74,8 +74,8 @@ ClusterSeeds seeds_for(const ScanFile& file, const GivenScan& given, std::size_t
     while (static_cast<double>(seeds.cells()) > largest) seeds = seeds.widened(wider);
   });
   constexpr double of_noise = 10, widest = 4;
-  const double for_fewest = cell_for(std::max<std::size_t>(1, fewest), given) / seeds.cell();
-  const double times = std::min({of_noise * noise_of(seeds) / seeds.cell(), widest, for_fewest});
+  const double for_needed = cell_for(std::max<std::size_t>(1, needed), given) / seeds.cell();
+  const double times = std::min({of_noise * noise_of(seeds) / seeds.cell(), widest, for_needed});
   if (times > 1) seeds = seeds.widened(times);
   seeds.choose();
   return seeds;
@@ -87,8 +87,8 @@ struct Thinned {
 };
 
 Thinned thin(const ScanFile& file, const GivenScan& given, const ThinningLimit& limit, const Progress& progress) {
-  const std::size_t fewest = limit.of ? limit.of(given) : 0;
-  ClusterSeeds seeds = seeds_for(file, given, std::max(limit.least, fewest), fewest, progress);
+  const std::size_t needed = limit.needed ? limit.needed(given) : 0;
+  ClusterSeeds seeds = seeds_for(file, given, std::max(limit.largest / 4, needed), needed, progress);
   const double cell = seeds.cell();
   VertexClusters clusters(std::move(seeds));
   NamedSurface named = read_again(file, given, 0.5, progress, [&](const SurfaceMesh& block) { clusters.add(block); });
@@ -116,7 +116,7 @@ ThinnedScan read_thinned_scan(const std::filesystem::path& path, const ThinningL
   // The index by which a strip of PLY grows, where vertices are too many for two bytes.
   constexpr std::size_t shortest_triangle = 4;
   const ScanFile file(path);
-  if (file.is_of_points() || file.bytes() / shortest_triangle <= limit.least)
+  if (file.is_of_points() || file.bytes() / shortest_triangle <= limit.largest)
     return {.scan = file.read(), .thinning = {}};
   Measured measured;
   file.read_in_blocks([&](const SurfaceMesh& block) {
@@ -124,13 +124,13 @@ ThinnedScan read_thinned_scan(const std::filesystem::path& path, const ThinningL
     measured.add(block);
   });
   const GivenScan given = measured.scan();
-  if (given.triangles > limit.least && !(given.area > 0))
+  if (given.triangles > limit.largest && !(given.area > 0))
     throw NotMeshable({.what = "the triangles of the scan have no area",
                        .where = {},
                        .value = std::to_string(given.triangles) + " triangles",
                        .limit = {},
                        .advice = "exporting the scan again"});
-  if (given.triangles <= limit.least || (limit.of && given.triangles <= limit.of(given)))
+  if (given.triangles <= limit.largest || (limit.needed && given.triangles <= limit.needed(given)))
     return {.scan = file.read(), .thinning = {}};
   Thinned thinned = thin(file, given, limit, progress);
   return {.scan = std::move(thinned.surface), .thinning = thinned.thinning};

@@ -32,11 +32,12 @@ struct ThinnedScan {
   std::optional<Thinning> thinning;  // nothing where the scan is as the file has it
 };
 
-// About how many triangles are left of a scan of more: `least`, or `of` it where that is more. Fewer, down to `of` and
-// a sixteenth of `least`, where noise is too large for cells of that size: they get ten times as wide as it is.
+// A scan of more triangles than `largest` is thinned to about a quarter of that, so that each vertex stands for many
+// and what is left is even; but not to fewer than `needed`. Where noise is too large for cells of that size they get
+// ten times as wide as it is, up to four times as wide as they were, and there are fewer.
 struct ThinningLimit {
-  std::size_t least = 8'000'000;
-  std::function<std::size_t(const GivenScan&)> of = {};
+  std::size_t largest = 8'000'000;
+  std::function<std::size_t(const GivenScan&)> needed = {};  // without: 0
 };
 
 // `read_named_scan` otherwise; clouds are never thinned here. A file that may hold more triangles is gone through three
