@@ -2,7 +2,7 @@
 import math
 
 
-def write_blob(path, levels=6):
+def write_blob(path, levels=6, size=(50, 35, 40)):
     """An icosahedron subdivided and bent: smooth, and nowhere symmetric."""
     golden = (1 + math.sqrt(5)) / 2
     points = [(0, s, t * golden) for s in (1, -1) for t in (1, -1)]
@@ -28,7 +28,7 @@ def write_blob(path, levels=6):
         for x, y, z in points:
             r = 1 + 0.2 * math.sin(2 * x + 3 * y) * math.cos(3 * z)
             r += 0.1 * math.sin(5 * y - 4 * z + 1) * math.cos(3 * x)
-            file.write(f"{50 * r * x:.9g} {35 * r * y:.9g} {40 * r * z:.9g}\n")
+            file.write(f"{size[0] * r * x:.9g} {size[1] * r * y:.9g} {size[2] * r * z:.9g}\n")
         for face in faces:
             file.write("3 %d %d %d\n" % face)
 
@@ -50,3 +50,14 @@ def write_torus(path, radius=40, tube=12, around=360, across=120):
                 p, q = i * across + j, (i + 1) % around * across + j
                 s, t = i * across + (j + 1) % across, (i + 1) % around * across + (j + 1) % across
                 file.write(f"3 {p} {q} {t}\n3 {p} {t} {s}\n")
+
+
+def write_box(path, x, y, z):
+    corners = [(x * (i & 1), y * (i >> 1 & 1), z * (i >> 2)) for i in range(8)]
+    sides = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
+    with open(path, "w") as file:
+        file.write("OFF\n8 12 0\n")
+        for corner in corners:
+            file.write("%g %g %g\n" % corner)
+        for a, b, c, d in sides:
+            file.write(f"3 {a} {b} {c}\n3 {a} {c} {d}\n")
