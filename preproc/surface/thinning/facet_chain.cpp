@@ -3,14 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <limits>
-#include <optional>
 #include <span>
 
 namespace scan2fea {
 namespace {
-
-constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
 // The facets about each corner.
 class Stars {

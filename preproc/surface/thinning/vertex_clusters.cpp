@@ -12,19 +12,19 @@
 namespace scan2fea {
 namespace {
 
-constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t unnumbered = std::numeric_limits<std::uint32_t>::max();
 constexpr std::size_t known_vertices = 1U << 16;
 
 // Of the facets, in the order of the given triangles; of the vertices those that facets use, in theirs.
 ThinnedSurface surface_of(std::vector<Facet> facets, const std::vector<Vec3>& vertices) {
   std::erase_if(facets, [](const Facet& facet) { return facet.turns == 0; });
   std::ranges::sort(facets, {}, &Facet::first);
-  std::vector<std::uint32_t> number(vertices.size(), none);
+  std::vector<std::uint32_t> number(vertices.size(), unnumbered);
   for (const Facet& facet : facets)
     for (const std::uint32_t c : facet.corners) number[c] = 0;
   ThinnedSurface thinned;
   for (std::uint32_t c = 0; c < vertices.size(); ++c) {
-    if (number[c] == none) continue;
+    if (number[c] == unnumbered) continue;
     number[c] = static_cast<std::uint32_t>(thinned.mesh.vertices.size());
     thinned.mesh.vertices.push_back(vertices[c]);
   }
@@ -44,7 +44,7 @@ ThinnedSurface surface_of(std::vector<Facet> facets, const std::vector<Vec3>& ve
 VertexClusters::VertexClusters(ClusterSeeds seeds) : seeds_(std::move(seeds)), clusters_(seeds_.count()) {}
 
 void VertexClusters::add(const SurfaceMesh& block) {
-  known_.assign(known_vertices, {none, none});
+  known_.assign(known_vertices, {unnumbered, unnumbered});
   const double cell = seeds_.cell();
   for (const Triangle& t : block.triangles) {
     if (given_ == std::numeric_limits<std::uint32_t>::max())
