@@ -43,12 +43,12 @@ scan = scan2fea.to_pyvista(scan2fea.read(sys.argv[1]))
 quads = pyvista.PolyData(  # a cube
     numpy.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)], float),
     [4, 0, 2, 3, 1, 4, 4, 5, 7, 6, 4, 0, 1, 5, 4, 4, 1, 3, 7, 5, 4, 3, 2, 6, 7, 4, 2, 0, 4, 6])
-surface = scan.scan2fea.surface(faces=800, quiet=True)
+surface = scan.scan2fea.surface(faces=800)
 mesh = surface.scan2fea.tetrahedralize()
-figures = mesh.scan2fea.check(reference=scan2fea.from_pyvista(surface)).figures
+figures = mesh.scan2fea.check(reference=scan2fea.from_pyvista(surface))
 assert abs(figures["deviation"]["volume_difference_pct"]) < 1e-6, figures["deviation"]
 assert type(mesh).__name__ == "UnstructuredGrid" and type(surface).__name__ == "PolyData"
-assert abs(quads.scan2fea.check().figures["surface"]["volume"] - 1) < 1e-12
+assert abs(quads.scan2fea.check()["surface"]["volume"] - 1) < 1e-12
 print(len(mesh.celltypes))
 """
 
