@@ -30,7 +30,6 @@ class FacetChain {
   void straighten();
 
   // In the order of their corners; those that cancel out stay, with no turns.
-  const std::vector<Facet>& facets() const { return facets_; }
   std::vector<Facet> take() { return std::move(facets_); }
 
  private:

@@ -81,14 +81,9 @@ ClusterSeeds seeds_for(const ScanFile& file, const GivenScan& given, std::size_t
   return seeds;
 }
 
-struct Thinned {
-  NamedSurface surface;
-  Thinning thinning;
-};
-
-Thinned thin(const ScanFile& file, const GivenScan& given, const ThinningLimit& limit, const Progress& progress) {
-  const std::size_t needed = limit.needed ? limit.needed(given) : 0;
-  ClusterSeeds seeds = seeds_for(file, given, std::max(limit.largest / 4, needed), needed, progress);
+ThinnedScan thin(const ScanFile& file, const GivenScan& given, std::size_t largest, std::size_t needed,
+                 const Progress& progress) {
+  ClusterSeeds seeds = seeds_for(file, given, std::max(largest / 4, needed), needed, progress);
   const double cell = seeds.cell();
   VertexClusters clusters(std::move(seeds));
   NamedSurface named = read_again(file, given, 0.5, progress, [&](const SurfaceMesh& block) { clusters.add(block); });
@@ -102,12 +97,12 @@ Thinned thin(const ScanFile& file, const GivenScan& given, const ThinningLimit& 
   named.face_sets = carried_sets(named.face_sets, thinned.origin);
   named.mesh = std::move(thinned.mesh);
   const std::size_t left = named.mesh.triangles.size();
-  return {std::move(named),
-          {.given = given,
-           .triangles = left,
-           .cell = cell,
-           .largest_distance = thinned.largest_distance,
-           .farthest = thinned.farthest}};
+  return {.scan = std::move(named),
+          .thinning = Thinning{.given = given,
+                               .triangles = left,
+                               .cell = cell,
+                               .largest_distance = thinned.largest_distance,
+                               .farthest = thinned.farthest}};
 }
 
 }  // namespace
@@ -130,10 +125,9 @@ ThinnedScan read_thinned_scan(const std::filesystem::path& path, const ThinningL
                        .value = std::to_string(given.triangles) + " triangles",
                        .limit = {},
                        .advice = "exporting the scan again"});
-  if (given.triangles <= limit.largest || (limit.needed && given.triangles <= limit.needed(given)))
-    return {.scan = file.read(), .thinning = {}};
-  Thinned thinned = thin(file, given, limit, progress);
-  return {.scan = std::move(thinned.surface), .thinning = thinned.thinning};
+  const std::size_t needed = limit.needed ? limit.needed(given) : 0;
+  if (given.triangles <= std::max(limit.largest, needed)) return {.scan = file.read(), .thinning = {}};
+  return thin(file, given, limit.largest, needed, progress);
 }
 
 }  // namespace scan2fea
