@@ -81,7 +81,7 @@ void adapt_to_thinned(const std::vector<Thinning>& thinned, double triangles, Ma
     if (asked < 2 * thinning.largest_distance) refuse_distance(thinning, asked);
   }
   if (job.size.ratio) *job.size.ratio *= given / triangles;
-  if (!job.size.deviation || thinned.empty()) return;
+  if (!job.size.deviation) return;
   const Thinning& farthest = *std::ranges::max_element(thinned, {}, &Thinning::largest_distance);
   RelativeLength& deviation = *job.size.deviation;
   deviation.value -= farthest.largest_distance / (deviation.relative ? farthest.given.box.diagonal() : 1);

@@ -15,7 +15,8 @@ ThinningLimit thinning_limit(const MakeMeshJob& job);
 StageRecord describe(const Thinning& thinning, double seconds);
 
 // A share of the triangles is one of those that were given, and a distance from the scan one from that; `triangles` are
-// left of all files. Throws WrongUsage where thinning takes more than half of the distance.
+// left of all files, of which one was thinned at least. Throws WrongUsage where thinning takes more than half of the
+// distance.
 void adapt_to_thinned(const std::vector<Thinning>& thinned, double triangles, MakeMeshJob& job);
 
 }  // namespace scan2fea::command
