@@ -1,7 +1,6 @@
 // Reads point clouds: text (XYZ, TXT, ASC, CSV, PTS, PWN), PTX, PCD, LAS, and the points of PLY, OBJ and OFF.
 #pragma once
 
-#include "preproc/mesh/input_file.hpp"
 #include "preproc/mesh/named_sets.hpp"
 #include "preproc/mesh/point_cloud.hpp"
 #include "preproc/mesh/read_surface.hpp"
@@ -25,25 +24,5 @@ Scan read_scan(const std::filesystem::path& file);
 // The same, with what read_named_surface tells of a surface.
 using NamedScan = std::variant<NamedSurface, PointCloud>;
 NamedScan read_named_scan(const std::filesystem::path& file);
-
-// The file of a scan that is gone through several times, and may be larger than memory.
-class ScanFile {
- public:
-  explicit ScanFile(const std::filesystem::path& path) : file_(path) {}
-
-  // Of what is in it, where it is compressed.
-  std::size_t bytes() const { return file_.bytes().size(); }
-  // Whether its format has no faces.
-  bool is_of_points() const;
-
-  NamedScan read() const;  // as read_named_scan
-  // Hands over the triangles some ten thousands at a time, and forgets them; returns what else there is, names and the
-  // unit. Beside a block, memory holds the vertices of formats that number them (24 bytes each). Precondition: the
-  // format has faces.
-  NamedSurface read_in_blocks(const TakeBlock& take) const;
-
- private:
-  InputFile file_;
-};
 
 }  // namespace scan2fea

@@ -2,6 +2,7 @@
 
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/error_text.hpp"
+#include "preproc/mesh/scan_file.hpp"
 #include "preproc/surface/thinning/cluster_seeds.hpp"
 #include "preproc/surface/thinning/vertex_clusters.hpp"
 
