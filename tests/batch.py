@@ -35,6 +35,7 @@ class Batch:
         self.folder = folder
         self.profile = "slurm" if asked.where == "slurm" else "local"
         os.mkdir(f"{folder}/scans")
+        self.scan = asked.scan
         shutil.copy(asked.scan, f"{folder}/scans/bracket.ply")
         for name in ("fandisk.off", "lion.off"):
             shutil.copy(f"{asked.scans}/{name}", f"{folder}/scans")
@@ -94,6 +95,29 @@ def mesh_all(batch):
     expect(batch.calls() == {"bracket.ply": 1}, f"what is missing is done, and nothing else: {batch.calls()}")
 
 
+# As a copy that keeps its time.
+def replace_by_an_older_scan(batch):
+    scan = f"{batch.folder}/scans/bracket.ply"
+    before = batch.verdict("bracket.ply")
+    shutil.copy(f"{batch.folder}/scans/broken.stl", scan)
+    os.utime(scan, (0, 0))
+    batch.run()
+    expect(batch.calls() == {"bracket.ply": 1}, f"an older scan in its place is another one: {batch.calls()}")
+    expect(batch.verdict("bracket.ply") != before and "1 of 5 scans are meshed" in batch.page(), "and so is the result")
+    shutil.copy(batch.scan, scan)
+    batch.run()
+    expect(batch.verdict("bracket.ply")["exit_code"] == 0, "until the first is back")
+
+
+def refuse_braces(batch):
+    scan = f"{batch.folder}/scans/{{odd}}.ply"
+    shutil.copy(batch.scan, scan)
+    running = batch.start()
+    told, _ = running.communicate()
+    expect(running.returncode == 1 and "{odd}.ply: Snakemake takes braces" in told, f"braces are told: {told[-3000:]}")
+    os.remove(scan)
+
+
 def interrupt(batch):
     shutil.rmtree(f"{batch.folder}/results")
     running = batch.start()
@@ -137,6 +161,8 @@ def main():
         batch = Batch(asked, f"{folder}/work")
         if asked.where == "local":
             mesh_all(batch)
+            replace_by_an_older_scan(batch)
+            refuse_braces(batch)
             interrupt(batch)
         else:
             with one_node_slurm.Slurm(folder) as slurm:
