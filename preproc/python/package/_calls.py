@@ -26,7 +26,8 @@ def mesh(points, cells=None, *, unit="", name="mesh", node_sets=None, face_sets=
     cells: (m, 3) triangles, counter-clockwise seen from outside, or (m, 4) or (m, 10) tetrahedra, integers; the nodes in
         the middle of edges are in the order of VTK, Abaqus and meshio. Without cells it is a point cloud.
     unit: of length, "mm"; name: what messages call it.
-    node_sets, face_sets, element_sets: {name: rows} of points, triangles (of a surface), tetrahedra.
+    node_sets, face_sets, element_sets: {name: rows} of points, triangles (of a surface), tetrahedra; of a mask take
+        numpy.flatnonzero.
 
     Of tetrahedra, points that none uses are left out. Raises InvalidInput for what is no mesh.
     """
@@ -36,30 +37,52 @@ def mesh(points, cells=None, *, unit="", name="mesh", node_sets=None, face_sets=
         raise TypeError(f"points are an array of numbers of shape (n, 3), not {points.dtype} {points.shape}")
     if cells.ndim != 2 or cells.shape[1] not in (0, 3, 4, 10) or cells.dtype.kind not in "iu":
         raise TypeError(f"cells are an array of integers of shape (m, 3), (m, 4) or (m, 10), not {cells.dtype} {cells.shape}")
+    corners = cells.shape[1]
     return _scan2fea.mesh_of_arrays(
-        numpy.ascontiguousarray(points, numpy.float64), numpy.ascontiguousarray(cells, numpy.int64), unit, name,
-        node_sets or {}, face_sets or {}, element_sets or {})
+        numpy.ascontiguousarray(points, numpy.float64), numpy.ascontiguousarray(cells, numpy.int64), os.fsencode(unit),
+        os.fsencode(name), _sets("node_sets", node_sets, corners > 0), _sets("face_sets", face_sets, corners == 3),
+        _sets("element_sets", element_sets, corners > 3))
+
+
+# {name: list of rows}. An array of True and False would be rows 0 and 1.
+def _sets(kind, sets, are_taken):
+    rows = {}
+    for name, given in dict(sets or {}).items():
+        members = numpy.asarray(given)
+        if not are_taken:
+            raise TypeError(f"{kind}: a mesh with such cells takes none, and so not {name!r}")
+        if members.ndim != 1 or (members.size > 0 and members.dtype.kind not in "iu"):
+            raise TypeError(f"{kind}: a set is a list of rows, and {name!r} is {members.dtype} {members.shape}")
+        rows[os.fsencode(name)] = members.tolist()
+    return rows
 
 
 def _is_path(given):
     return isinstance(given, (str, bytes, os.PathLike))
 
 
+def _path(given):
+    name = os.fsencode(given)
+    if b"\0" in name:  # which would end it
+        raise ValueError("embedded null byte")
+    return name
+
+
 # As a list of meshes or None, and one of the names by which messages call them.
 def _sources(given):
     several = given if isinstance(given, list) else [given]
     for one in several:
-        if not (_is_path(one) or isinstance(one, (_scan2fea.Mesh, tuple))):
+        if not (_is_path(one) or isinstance(one, _scan2fea.Mesh) or (isinstance(one, tuple) and len(one) < 3)):
             raise TypeError(f"a Mesh, a file's name or (points, cells) is needed, not {type(one).__name__}")
     meshes = [None if _is_path(one) else one if isinstance(one, _scan2fea.Mesh) else mesh(*one) for one in several]
-    return meshes, [os.fsencode(one if held is None else held.name) for one, held in zip(several, meshes)]
+    return meshes, [_path(one if held is None else held.name) for one, held in zip(several, meshes)]
 
 
 def _text(value):
     if isinstance(value, (bool, numpy.bool_)):
         return b"true" if value else b"false"
     if _is_path(value):
-        return os.fsencode(value)
+        return _path(value)
     number = float(value) if isinstance(value, (float, numpy.floating)) else value
     if isinstance(number, float) and number.is_integer() and abs(number) < 1e15:
         number = int(number)
@@ -101,8 +124,16 @@ def _keywords(command, options):
     return keywords
 
 
+# False of NumPy is False, too.
 def _told(progress):
-    return None if progress is None else lambda line: progress(json.loads(line))
+    if progress is None:
+        return None
+
+    def tell(line):
+        answer = progress(json.loads(line))
+        return not isinstance(answer, (bool, numpy.bool_)) or bool(answer)
+
+    return tell
 
 
 def _warn(lines):
@@ -136,7 +167,7 @@ def read(file, *, unit=""):
 
     unit: of length, where the file tells none. Returns a Mesh; warns of what of the file is not in it.
     """
-    made, told = _scan2fea.read(os.fsencode(file), unit)
+    made, told = _scan2fea.read(_path(file), unit)
     _warn(told)
     return made
 

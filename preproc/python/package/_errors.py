@@ -64,6 +64,9 @@ class GateFailed(Error):
         super().__init__(line, what=line)
         self.figures = figures
 
+    def __reduce__(self):  # exceptions are made again of their line alone
+        return type(self), (str(self), self.figures)
+
 
 class MeshWarning(UserWarning):
     """What a person should know of a mesh that was read, made or written all the same."""
