@@ -33,6 +33,18 @@ TEST(RepairIntersections, CrossingSolidsBecomeOne) {
   EXPECT_NEAR(result.total_size(RepairKind::DroppedInside), 2 * surface_area(ball) - surface_area(mesh), 1e-5);
 }
 
+// Thousands of crossings take minutes, in which an interrupt or the end of the time must count.
+TEST(RepairIntersections, CanBeCancelledWhileManyCrossingsAreUnited) {
+  SurfaceMesh rough = analytic::sphere(1, 5);
+  for (std::size_t v = 0; v < rough.vertices.size(); v += 2) rough.vertices[v] *= 1.02;
+  SurfaceMesh mesh = analytic::join(analytic::sphere(1.01, 5), rough);
+  ASSERT_GT(find_self_intersections(mesh).size(), 4096u);
+  std::size_t looks = 0;
+  const Progress progress(
+      [&](std::string_view stage, double) { return stage != "remove self-intersections" || ++looks < 3; });
+  EXPECT_THROW(repair(mesh, {}, progress), Cancelled);
+}
+
 TEST(RepairIntersections, BoxesThatTouchAlongFacesBecomeOne) {
   SurfaceMesh mesh = analytic::join(analytic::box({2, 2, 1}, 1), analytic::moved(unit_box(1), {0.5, 0.5, 1}));
   repair(mesh);

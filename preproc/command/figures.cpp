@@ -222,7 +222,7 @@ Json extent_of(const SurfaceMesh& mesh) {
   return extent;
 }
 
-Json measure(const Subject& subject, const CommonFlags& flags) {
+Json measure(const Subject& subject, const CommonFlags& flags, const Progress& progress) {
   Report report;
   report.input = flags.input.string();
   const bool is_curved = subject.volume_mesh != nullptr && subject.volume_mesh->order() == 2;
@@ -235,7 +235,7 @@ Json measure(const Subject& subject, const CommonFlags& flags) {
   }
   if (subject.surface != nullptr && subject.reference != nullptr) {
     std::optional<double> volume = subject.solid_volume;
-    if (!volume && encloses_volume(*subject.surface)) volume = volume_of_solid(*subject.reference);
+    if (!volume && encloses_volume(*subject.surface)) volume = volume_of_solid(*subject.reference, progress);
     const DeviationOptions how{
         .seed = flags.seed, .reference_volume = volume, .reference_is_of_bodies = subject.reference_is_of_bodies};
     report.deviation = is_curved || (subject.volume_mesh != nullptr && how.reference_is_of_bodies)
@@ -297,7 +297,7 @@ std::vector<GateResult> finish_report(Json& report, const Subject& subject, cons
 bool report_figures(const Subject& subject, const CommonFlags& flags, const std::vector<Gate>& gates,
                     ProgressDisplay& display, OutputFiles& outputs) {
   display.begin("measure");
-  Json report = measure(subject, flags);
+  Json report = measure(subject, flags, display.progress());
   if (flags.report) display.begin("report");
   const std::vector<GateResult> results = finish_report(report, subject, flags, gates, outputs);
   // With the JSON, the XML or the mesh on stdout the table goes where messages go.

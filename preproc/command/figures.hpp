@@ -44,7 +44,7 @@ Json extent_of(const SurfaceMesh& mesh);
 Json extent_of(const std::vector<Vec3>& points);
 
 // All figures but those of single elements, without gates.
-Json measure(const Subject& subject, const CommonFlags& flags);
+Json measure(const Subject& subject, const CommonFlags& flags, const Progress& progress = {});
 
 // Returns whether all gates pass. Stages --json, --junit and --report; says which gates failed.
 bool report_figures(const Subject& subject, const CommonFlags& flags, const std::vector<Gate>& gates,

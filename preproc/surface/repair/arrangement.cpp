@@ -39,16 +39,27 @@ class Arranging {
       : mesh_{mesh}, tolerance_(tolerance), exact_(mesh.vertices.size()) {}
 
   // Nothing where what crosses a face, once moved by the tolerance, crosses anew.
-  std::optional<Arrangement> run(std::span<const FacePair> pairs) {
+  std::optional<Arrangement> run(std::span<const FacePair> pairs, const Progress& progress) {
+    constexpr std::size_t between_looks = 1024;  // a tenth of a second, or a few where many faces cross
+    std::size_t done = 0;
+    const auto look = [&] {
+      if (done++ % between_looks == 0) progress("remove self-intersections", 0);
+    };
     know_corners(pairs);
-    for (const FacePair& pair : pairs)
+    for (const FacePair& pair : pairs) {
+      look();
       if (pair.face != pair.other) cross(pair.face, pair.other);
-    for (auto& [face, cuts] : cuts_) cross_lines(face, cuts);
+    }
+    for (auto& [face, cuts] : cuts_) {
+      look();
+      cross_lines(face, cuts);
+    }
     share_points_of_edges();
 
     Arrangement result;
     for (Index f = 0; f < mesh_.triangles.size(); ++f) {
       const auto cuts = cuts_.find(f);
+      if (cuts != cuts_.end()) look();
       if (cuts == cuts_.end())
         result.mesh.triangles.push_back(mesh_.triangles[f]);
       else if (!cut_face(f, cuts->second, result.mesh.triangles))
@@ -352,8 +363,9 @@ bool lie_in_one_plane(const SurfaceMesh& mesh, std::uint32_t face, std::uint32_t
   return lies_in_plane_of(s, t) || lies_in_plane_of(t, s);
 }
 
-std::optional<Arrangement> arrange(const SurfaceMesh& mesh, std::span<const FacePair> pairs, double tolerance) {
-  return Arranging(mesh, tolerance).run(pairs);
+std::optional<Arrangement> arrange(const SurfaceMesh& mesh, std::span<const FacePair> pairs, double tolerance,
+                                   const Progress& progress) {
+  return Arranging(mesh, tolerance).run(pairs, progress);
 }
 
 }  // namespace scan2fea

@@ -1,6 +1,7 @@
 // A surface cut along the lines in which it crosses itself.
 #pragma once
 
+#include "preproc/mesh/progress.hpp"
 #include "preproc/mesh/surface_mesh.hpp"
 #include "quality/self_intersections.hpp"
 
@@ -28,7 +29,8 @@ struct Arrangement {
 //
 // `pairs` are intersecting pairs of the surface, or pairs in one plane; a face of no area is left alone. Precondition:
 // the tolerance is positive. About 0.1 ms a pair, more where many cross one face.
-std::optional<Arrangement> arrange(const SurfaceMesh& mesh, std::span<const FacePair> pairs, double tolerance);
+std::optional<Arrangement> arrange(const SurfaceMesh& mesh, std::span<const FacePair> pairs, double tolerance,
+                                   const Progress& progress = {});
 
 // Whether the corners of one of two faces lie within a tolerance of the plane of the other.
 bool lie_in_one_plane(const SurfaceMesh& mesh, std::uint32_t face, std::uint32_t other, double tolerance);

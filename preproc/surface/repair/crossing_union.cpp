@@ -188,10 +188,10 @@ struct Union {
 };
 
 // Leaves out crossings beyond which a surface is inside out, if it must not be. Nothing where none is left.
-std::optional<Union> unite(Part part, bool may_be_inside_out, double tolerance) {
+std::optional<Union> unite(Part part, bool may_be_inside_out, double tolerance, const Progress& progress) {
   const std::vector<std::uint32_t> crossing = number_crossings(part);
   while (!part.pairs.empty()) {
-    std::optional<Arrangement> arranged = arrange(part.mesh, part.pairs, tolerance);
+    std::optional<Arrangement> arranged = arrange(part.mesh, part.pairs, tolerance, progress);
     if (!arranged) return {};
     Union made{std::move(*arranged), {}};
     join_close_vertices(made.arrangement);
@@ -239,13 +239,14 @@ bool loses_volume(const Union& made, const std::vector<Shell>& shells, const Cro
 
 // The union that is closed, or else the last that was tried.
 template <class Predicate>
-std::optional<Union> unite_if_closed(Part& part, Crossings which, const Predicate& is_wrong) {
+std::optional<Union> unite_if_closed(Part& part, Crossings which, const Progress& progress, const Predicate& is_wrong) {
   std::optional<Union> last;
   const auto try_all = [&] {
     // Surfaces that cross at flat angles, as two scans of one part, lie within the tolerance over long ways: there only
     // a smaller one tells what is on which side.
     for (const double factor : {1.0, 1e-3, 1e-6}) {
-      std::optional<Union> made = unite(part, which == Crossings::between_shells, factor * tolerance_of(part.mesh));
+      std::optional<Union> made =
+          unite(part, which == Crossings::between_shells, factor * tolerance_of(part.mesh), progress);
       if (!made || is_wrong(*made)) continue;
       last = std::move(made);
       if (encloses_volume(surface_of(*last))) return true;
@@ -305,7 +306,8 @@ bool is_same(Triangle a, const Triangle& b) {
 
 }  // namespace
 
-bool unite_crossings(SurfaceMesh& mesh, std::span<const FacePair> pairs, Crossings which, RepairResult& result) {
+bool unite_crossings(SurfaceMesh& mesh, std::span<const FacePair> pairs, Crossings which, RepairResult& result,
+                     const Progress& progress) {
   const std::vector<Shell> shells = find_shells(mesh);
   std::vector<char> gone(mesh.triangles.size(), 0);
   std::vector<Triangle> added;
@@ -313,7 +315,7 @@ bool unite_crossings(SurfaceMesh& mesh, std::span<const FacePair> pairs, Crossin
   for (const CrossingSet& set : find_sets(mesh, shells, pairs, which)) {
     Part part = take_part(mesh, shells, set);
     if (which == Crossings::between_shells) add_contacts(part);
-    const std::optional<Union> made = unite_if_closed(part, which, [&](const Union& tried) {
+    const std::optional<Union> made = unite_if_closed(part, which, progress, [&](const Union& tried) {
       return which == Crossings::between_shells && loses_volume(tried, shells, set);
     });
     if (!made) continue;

@@ -1,6 +1,7 @@
 // Solids that overlap or touch along faces, and parts of one solid that pass through each other, made one.
 #pragma once
 
+#include "preproc/mesh/progress.hpp"
 #include "preproc/mesh/surface_mesh.hpp"
 #include "preproc/surface/repair/repair_result.hpp"
 #include "quality/self_intersections.hpp"
@@ -32,6 +33,7 @@ enum class Crossings {
 //
 // Costs the arrangement (see arrangement.hpp), two or three more where the first does not come out closed, and
 // O(n log n).
-bool unite_crossings(SurfaceMesh& mesh, std::span<const FacePair> pairs, Crossings which, RepairResult& result);
+bool unite_crossings(SurfaceMesh& mesh, std::span<const FacePair> pairs, Crossings which, RepairResult& result,
+                     const Progress& progress = {});
 
 }  // namespace scan2fea

@@ -109,11 +109,11 @@ void fill(SurfaceMesh& mesh, const Twins& twins, const std::vector<BorderLoop>& 
 // per vertex. Slivers as narrow as rounding may be missing from it, and are filled in; where more is missing there is
 // no union.
 void unite(SurfaceMesh& mesh, std::vector<FacePair>& pairs, std::span<const FacePair> of_them, Crossings which,
-           RepairResult& result) {
+           RepairResult& result, const Progress& progress) {
   constexpr double most_filled_of_area = 1e-6;
   SurfaceMesh united = mesh;
   RepairResult of_the_union;
-  if (!unite_crossings(united, of_them, which, of_the_union)) return;
+  if (!unite_crossings(united, of_them, which, of_the_union, progress)) return;
   RepairResult of_its_rounding;  // what follows from it: nothing to report
   stitch_borders(united, of_its_rounding);
   const Twins twins = make_manifold(united, of_its_rounding);
@@ -162,12 +162,13 @@ IntersectionRemoval remove_intersections(SurfaceMesh& mesh, RepairResult& result
   if (pairs.empty()) return {};
   const bool closed = Borders(mesh).empty();
   if (closed && drop_repeated_shells(mesh, pairs, result)) pairs = find_self_intersections(mesh);
-  if (closed && !pairs.empty()) unite(mesh, pairs, pairs, Crossings::between_shells, result);
+  if (closed && !pairs.empty()) unite(mesh, pairs, pairs, Crossings::between_shells, result, progress);
   if (!pairs.empty() && part_touching_shells(mesh, pairs, result)) pairs = find_self_intersections(mesh);
   if (!pairs.empty() && part_touching_vertices(mesh, pairs, result)) pairs = find_self_intersections(mesh);
-  if (closed && !pairs.empty()) unite(mesh, pairs, deep_crossings(mesh, pairs), Crossings::within_shells, result);
+  if (closed && !pairs.empty())
+    unite(mesh, pairs, deep_crossings(mesh, pairs), Crossings::within_shells, result, progress);
   if (!pairs.empty()) pairs = smooth_folds(mesh, std::move(pairs), result);
-  if (closed && !pairs.empty()) unite(mesh, pairs, pairs, Crossings::within_shells, result);
+  if (closed && !pairs.empty()) unite(mesh, pairs, pairs, Crossings::within_shells, result, progress);
 
   IntersectionRemoval removal;
   std::size_t faces_of_input = mesh.triangles.size();  // they come first, patches after them

@@ -5,10 +5,10 @@
 
 namespace scan2fea {
 
-std::optional<double> volume_of_solid(const SurfaceMesh& scan) {
+std::optional<double> volume_of_solid(const SurfaceMesh& scan, const Progress& progress) {
   try {
     SurfaceMesh solid = scan;
-    const RepairResult result = repair(solid);
+    const RepairResult result = repair(solid, {}, progress);
     return volume_of_solid(solid, result);
   } catch (const NotMeshable&) {
     return std::nullopt;

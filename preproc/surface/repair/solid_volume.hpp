@@ -1,6 +1,7 @@
 // The volume of the solid that a scan shows, however its faces tell it.
 #pragma once
 
+#include "preproc/mesh/progress.hpp"
 #include "preproc/mesh/surface_mesh.hpp"
 #include "preproc/surface/repair/repair_result.hpp"
 
@@ -12,7 +13,7 @@ namespace scan2fea {
 // mesh made of the scan is to be compared with. The faces of an open or crossing scan, or of one with walls inside or
 // doubled sheets, have no volume of their own, or another one. Nothing where repair makes no solid of it. Costs a
 // repair of a copy.
-std::optional<double> volume_of_solid(const SurfaceMesh& scan);
+std::optional<double> volume_of_solid(const SurfaceMesh& scan, const Progress& progress = {});
 
 // The same, from what that repair made.
 double volume_of_solid(const SurfaceMesh& repaired, const RepairResult& result);
