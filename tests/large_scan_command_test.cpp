@@ -33,6 +33,8 @@ TEST_F(LargeScanCommand, TellsWhatWasThinned) {
   EXPECT_EQ(stage.at("name"), "thin");
   EXPECT_EQ(stage.at("triangles_given"), 60000);
   EXPECT_GT(stage.at("largest_distance"), 0);
+  EXPECT_LT(stage.at("volume_difference_pct"), 0);  // chords
+  EXPECT_GT(stage.at("volume_difference_pct"), -1);
   EXPECT_THAT(result.standard_error, HasSubstr("60000 triangles and was thinned to"));
 }
 
@@ -40,6 +42,17 @@ TEST_F(LargeScanCommand, AShareIsOfWhatWasGiven) {
   ASSERT_EQ(surface("--largest-scan 50000 --ratio 0.05").exit_code, 0);
   const double triangles = static_cast<double>(read_surface(folder / "out.ply").triangles.size());
   EXPECT_NEAR(triangles, 3000, 150);
+}
+
+TEST_F(LargeScanCommand, TellsWhichOfSeveralWasThinned) {
+  const SurfaceMesh torus = analytic::torus(3, 1, 300, 100);
+  write_surface(analytic::moved(torus, {20, 0, 0}), folder / "other.stl");
+  const CommandResult result =
+      run_command("run " + (folder / "torus.stl").string() + " " + (folder / "other.stl").string() + " -o " +
+                  (folder / "both.inp").string() + " --largest-scan 50000 --faces 2000 --effort low --quiet");
+  ASSERT_EQ(result.exit_code, 0) << result.standard_error;
+  EXPECT_THAT(result.standard_error, HasSubstr("the scan torus.stl has 60000 triangles"));
+  EXPECT_THAT(result.standard_error, HasSubstr("the scan other.stl has 60000 triangles"));
 }
 
 // So many as four times those that are asked for are never thinned away.

@@ -124,6 +124,28 @@ TEST(ReadThinnedScan, DustDoesNotFillMemory) {
   EXPECT_LT(mesh_of(read).vertices.size(), 1500u);
 }
 
+// Wherever it lies, and whichever way it is turned.
+TEST(ReadThinnedScan, TellsWhatTheVolumeBecame) {
+  const TemporaryFolder folder;
+  for (const SurfaceMesh& torus :
+       {torus_of_floats(), analytic::moved(torus_of_floats(), {1e6, 0, 0}), analytic::reversed(torus_of_floats())}) {
+    write_surface(torus, folder / "torus.ply");
+    const ThinnedScan read = read_thinned_scan(folder / "torus.ply", {.largest = 20000});
+    ASSERT_TRUE(read.thinning && read.thinning->volume_change);
+    const double before = enclosed_volume(torus);
+    EXPECT_NEAR(*read.thinning->volume_change, enclosed_volume(mesh_of(read)) / before - 1, 1e-9);
+    EXPECT_LT(*read.thinning->volume_change, 0);  // chords
+  }
+}
+
+// Whose walls are thinner than the cells; the bottom is not.
+TEST(ReadThinnedScan, APartThatLosesItsWallsIsRefused) {
+  const SurfaceMesh foot = analytic::box({4, 10, 10}, 0.1), wall = analytic::box({60, 10, 0.1}, 0.1);
+  const TemporaryFolder folder;
+  write_surface(analytic::join(foot, analytic::moved(wall, {10, 0, 0})), folder / "walls.stl");
+  EXPECT_THROW(read_thinned_scan(folder / "walls.stl", {.largest = 4000}), NotMeshable);
+}
+
 TEST(ReadThinnedScan, WhatIsTooThinForItsCellsIsRefused) {
   const TemporaryFolder folder;
   write_surface(analytic::box({10, 10, 1e-4}, 0.05), folder / "foil.stl");

@@ -52,6 +52,8 @@ TEST(VertexClusters, ThinnedTorusIsClosedAndAsNearAsIsSaid) {
   EXPECT_LT(thin.mesh.triangles.size(), torus.triangles.size() / 5);
   EXPECT_TRUE(is_closed(thin.mesh));
   EXPECT_NEAR(enclosed_volume(thin.mesh) / enclosed_volume(torus), 1, 2e-3);
+  ASSERT_TRUE(thin.volume);
+  EXPECT_NEAR(*thin.volume / enclosed_volume(thin.mesh), 1, 1e-12);
   const double distance = measure_deviation(thin.mesh, torus).hausdorff;
   EXPECT_LE(distance, thin.largest_distance);
   EXPECT_LE(thin.largest_distance, 2 * std::sqrt(3) * cell);
@@ -137,6 +139,20 @@ TEST(VertexClusters, BlocksAreAsGoodAsTheWhole) {
   EXPECT_EQ(parts.mesh.triangles, whole.mesh.triangles);
   EXPECT_EQ(parts.origin, whole.origin);
   EXPECT_EQ(parts.largest_distance, whole.largest_distance);
+}
+
+TEST(VertexClusters, WhatHasABorderHasNoVolume) {
+  SurfaceMesh torus = analytic::torus(3, 1, 600, 200);
+  torus.triangles.resize(torus.triangles.size() / 2);
+  EXPECT_FALSE(thinned(torus, 0.1).volume);
+}
+
+// Which stay one shell.
+TEST(VertexClusters, TwoShellsInOnePlaceHaveTwiceTheVolume) {
+  const SurfaceMesh torus = analytic::torus(3, 1, 600, 200);
+  const ThinnedSurface thin = thinned(analytic::join(torus, torus), 0.1);
+  ASSERT_TRUE(thin.volume);
+  EXPECT_NEAR(*thin.volume / enclosed_volume(thin.mesh), 2, 1e-12);
 }
 
 // Both sides of a plate in one layer of cells.

@@ -53,7 +53,7 @@ ThinningLimit thinning_limit(const MakeMeshJob& job) {
           .needed = [size = job.size](const GivenScan& scan) { return needed_triangles(size, scan); }};
 }
 
-StageRecord describe(const Thinning& thinning, double seconds) {
+StageRecord describe(const Thinning& thinning, const std::string& scan, double seconds) {
   StageRecord record;
   record.name = "thin";
   record.seconds = seconds;
@@ -61,13 +61,19 @@ StageRecord describe(const Thinning& thinning, double seconds) {
                     {"triangles_left", static_cast<double>(thinning.triangles)},
                     {"cell", thinning.cell},
                     {"largest_distance", thinning.largest_distance}};
+  std::string volume;
+  if (thinning.volume_change) {
+    const double of_volume = 100 * *thinning.volume_change;
+    record.changes.emplace_back("volume_difference_pct", of_volume);
+    volume = ", their volumes differ by " + error_text(of_volume, 2) + " %";
+  }
   const double percent = 100 * thinning.largest_distance / thinning.given.box.diagonal();
   record.warnings.push_back(
-      "the scan has " + std::to_string(thinning.given.triangles) + " triangles and was thinned to " +
+      scan + " has " + std::to_string(thinning.given.triangles) + " triangles and was thinned to " +
       std::to_string(thinning.triangles) + " while it was read: neither surface is farther than " +
       error_text(thinning.largest_distance, 3) + " from the other (" + error_text(percent, 2) + " % of the size), at " +
-      error_text(thinning.farthest) +
-      "; what is told of distances is from the thinned one; --largest-scan sets how many are left");
+      error_text(thinning.farthest) + volume +
+      "; what is told of distances and volumes is from the thinned one; --largest-scan sets how many are left");
   return record;
 }
 

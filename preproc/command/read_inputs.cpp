@@ -11,6 +11,7 @@
 #include "preproc/mesh/read_surface.hpp"
 
 #include <chrono>
+#include <string>
 #include <utility>
 
 namespace scan2fea::command {
@@ -42,7 +43,8 @@ NamedScan read_scan_file(const std::filesystem::path& file, const MakeMeshJob& j
   if (read.thinning) {
     const std::chrono::duration<double> seconds = Progress::Clock::now() - start;
     inputs.thinned.push_back(*read.thinning);
-    inputs.stages.push_back(describe(*read.thinning, seconds.count()));
+    const std::string scan = job.more_bodies.empty() ? "the scan" : "the scan " + file.filename().string();
+    inputs.stages.push_back(describe(*read.thinning, scan, seconds.count()));
   }
   return std::move(read.scan);
 }

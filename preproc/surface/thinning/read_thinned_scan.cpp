@@ -18,11 +18,14 @@ class Measured {
  public:
   void add(const SurfaceMesh& block) {
     for (const Triangle& t : block.triangles) {
+      if (scan_.area == 0) apex_ = block.vertices[t[0]];
       for (const std::uint32_t v : t) {
         low_ = low_.cwiseMin(block.vertices[v]);
         high_ = high_.cwiseMax(block.vertices[v]);
       }
-      scan_.area += area_vector(block, t).norm() / 2;
+      const Vec3 normal = area_vector(block, t);
+      scan_.area += normal.norm() / 2;
+      scan_.volume += normal.dot(block.vertices[t[0]] - apex_) / 6;
     }
     scan_.triangles += block.triangles.size();
   }
@@ -36,6 +39,7 @@ class Measured {
   GivenScan scan_;
   Vec3 low_ = Vec3::Constant(std::numeric_limits<double>::infinity());
   Vec3 high_ = -low_;
+  Vec3 apex_ = Vec3::Zero();  // a vertex: that a part lies far from the origin costs no digits
 };
 
 // A plane in any direction goes through one and a half cells in the area of a cell's side, on average; two thirds of
@@ -82,6 +86,13 @@ ClusterSeeds seeds_for(const ScanFile& file, const GivenScan& given, std::size_t
   return seeds;
 }
 
+// Nothing where the given scan has next to no volume of its own: shells that are turned against one another.
+std::optional<double> volume_change(const GivenScan& given, const ThinnedSurface& thinned) {
+  constexpr double flat = 1e-6;  // of the area to the power of 1.5
+  if (!thinned.volume || !(std::abs(given.volume) > flat * std::pow(given.area, 1.5))) return {};
+  return *thinned.volume / given.volume - 1;
+}
+
 ThinnedScan thin(const ScanFile& file, const GivenScan& given, std::size_t largest, std::size_t needed,
                  const Progress& progress) {
   ClusterSeeds seeds = seeds_for(file, given, std::max(largest / 4, needed), needed, progress);
@@ -95,6 +106,15 @@ ThinnedScan thin(const ScanFile& file, const GivenScan& given, std::size_t large
                        .value = error_text(cell),
                        .limit = {},
                        .advice = "--largest-scan " + std::to_string(given.triangles)});
+  const std::optional<double> change = volume_change(given, thinned);
+  constexpr double largest_change = 0.05;
+  if (change && std::abs(*change) > largest_change)
+    throw NotMeshable({.what = "the scan is too thin, or too rough, for the cells to which it is thinned, " +
+                               error_text(cell) + " wide: of its volume there comes or goes",
+                       .where = {},
+                       .value = error_text(100 * *change, 3) + " %",
+                       .limit = error_text(100 * largest_change) + " %",
+                       .advice = "--largest-scan " + std::to_string(given.triangles)});
   named.face_sets = carried_sets(named.face_sets, thinned.origin);
   named.mesh = std::move(thinned.mesh);
   const std::size_t left = named.mesh.triangles.size();
@@ -102,6 +122,7 @@ ThinnedScan thin(const ScanFile& file, const GivenScan& given, std::size_t large
           .thinning = Thinning{.given = given,
                                .triangles = left,
                                .cell = cell,
+                               .volume_change = change,
                                .largest_distance = thinned.largest_distance,
                                .farthest = thinned.farthest}};
 }

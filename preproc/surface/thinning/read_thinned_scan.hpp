@@ -17,12 +17,16 @@ struct GivenScan {
   std::uint64_t triangles = 0;
   BoundingBox box;
   double area = 0;
+  double volume = 0;  // what its faces enclose, if they do
 };
 
 struct Thinning {
   GivenScan given;
-  std::size_t triangles = 0;     // that are left
-  double cell = 0;               // about how far vertices are apart (cluster_seeds.hpp), model units
+  std::size_t triangles = 0;  // that are left
+  double cell = 0;            // about how far vertices are apart (cluster_seeds.hpp), model units
+  // Of the volume within, where no border is left: from that of the given scan, over it. What is cut off of a curved
+  // surface, and walls thinner than cells, which are gone.
+  std::optional<double> volume_change;
   double largest_distance = 0;   // bound between the two surfaces
   Vec3 farthest = Vec3::Zero();  // where it is reached
 };
@@ -42,7 +46,8 @@ struct ThinningLimit {
 
 // `read_named_scan` otherwise; clouds are never thinned here. A file that may hold more triangles is gone through three
 // times, and memory holds what read_cloud.hpp says of blocks, and 150 bytes for each triangle that is left. Sets of
-// triangles are carried. Throws what readers throw, NotMeshable where nothing is left, and Cancelled.
+// triangles are carried. Throws what readers throw, Cancelled, and NotMeshable where
+// nothing is left or more than 5 % of the volume goes or comes.
 ThinnedScan read_thinned_scan(const std::filesystem::path& path, const ThinningLimit& limit = {},
                               const Progress& progress = {});
 

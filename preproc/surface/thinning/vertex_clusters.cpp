@@ -1,6 +1,7 @@
 #include "preproc/surface/thinning/vertex_clusters.hpp"
 
 #include "preproc/mesh/error.hpp"
+#include "preproc/mesh/splitmix64.hpp"
 #include "preproc/surface/thinning/distance_bound.hpp"
 
 #include <Eigen/Cholesky>
@@ -15,6 +16,25 @@ namespace {
 constexpr std::uint32_t unnumbered = std::numeric_limits<std::uint32_t>::max();
 constexpr std::size_t known_vertices = 1U << 16;
 
+std::optional<double> volume_within(const std::vector<Facet>& facets, const std::vector<Vec3>& vertices) {
+  if (facets.empty()) return 0;
+  const Vec3& apex = vertices[facets.front().corners[0]];
+  double volume = 0;
+  std::uint64_t border = 0;  // the edges' hashes, as often as the faces go along them: 0 where there is no border
+  const auto go_along = [&](std::uint32_t from, std::uint32_t to, std::int32_t times) {
+    border += static_cast<std::uint64_t>(std::int64_t{times}) * splitmix64((std::uint64_t{from} << 32U) | to);
+  };
+  for (const Facet& facet : facets) {
+    const auto& [a, b, c] = facet.corners;
+    volume += facet.turns * (vertices[a] - apex).dot((vertices[b] - apex).cross(vertices[c] - apex)) / 6;
+    go_along(a, b, facet.turns);
+    go_along(b, c, facet.turns);
+    go_along(a, c, -facet.turns);
+  }
+  if (border != 0) return {};
+  return volume;
+}
+
 // Of the facets, in the order of the given triangles; of the vertices those that facets use, in theirs.
 ThinnedSurface surface_of(std::vector<Facet> facets, const std::vector<Vec3>& vertices) {
   std::erase_if(facets, [](const Facet& facet) { return facet.turns == 0; });
@@ -23,6 +43,7 @@ ThinnedSurface surface_of(std::vector<Facet> facets, const std::vector<Vec3>& ve
   for (const Facet& facet : facets)
     for (const std::uint32_t c : facet.corners) number[c] = 0;
   ThinnedSurface thinned;
+  thinned.volume = volume_within(facets, vertices);
   for (std::uint32_t c = 0; c < vertices.size(); ++c) {
     if (number[c] == unnumbered) continue;
     number[c] = static_cast<std::uint32_t>(thinned.mesh.vertices.size());

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace scan2fea {
@@ -15,6 +16,8 @@ namespace scan2fea {
 struct ThinnedSurface {
   SurfaceMesh mesh;
   std::vector<std::uint32_t> origin;  // per triangle the first of the given ones that became it
+  // What the faces enclose, each as often as it was given; nothing where they have a border. Model units cubed.
+  std::optional<double> volume;
   // No point of the given surface is farther from this one, nor any of this one from the given: a bound, model units.
   double largest_distance = 0;
   Vec3 farthest = Vec3::Zero();  // of the given surface, about, where the bound is reached
