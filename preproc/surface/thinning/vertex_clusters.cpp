@@ -127,7 +127,7 @@ void VertexClusters::compact_edges() {
 // mean's squared distances from the planes that the place has, too. That is nothing on the crease of a clean scan, and
 // nearly all where normals are those of noise, which would throw the place about.
 Eigen::Vector3f VertexClusters::place(const Cluster& cluster) {
-  const Eigen::Vector3f mean = cluster.sum / static_cast<float>(cluster.corners);
+  Eigen::Vector3f mean = cluster.sum / static_cast<float>(cluster.corners);
   const auto& q = cluster.planes;
   const float trace = q[0] + q[3] + q[5];
   if (!(trace > 0)) return mean;
