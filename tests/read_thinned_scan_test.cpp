@@ -8,9 +8,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 #include <string>
 #include <variant>
+#include <vector>
 
 namespace scan2fea {
 namespace {
@@ -88,6 +90,24 @@ TEST(ReadThinnedScan, NamesStay) {
       EXPECT_GT(side * centroid(surface.mesh, surface.mesh.triangles[t]).x(), -2 * read.thinning->cell);
   }
   EXPECT_EQ(members, surface.mesh.triangles.size());
+}
+
+// Of single triangles, most of which become edges or points.
+TEST(ReadThinnedScan, TellsWhichNamesAreGone) {
+  const SurfaceMesh torus = torus_of_floats();
+  std::vector<NamedSet> dots;
+  for (std::uint32_t i = 0; i < 20; ++i) dots.push_back({"dot" + std::to_string(i), {3000 * i + 7}});
+  const TemporaryFolder folder;
+  write_surface(torus, folder / "torus.obj", {.measured = {}, .unit = {}, .face_sets = dots});
+  const ThinnedScan read = read_thinned_scan(folder / "torus.obj", {.largest = 20000});
+  ASSERT_TRUE(read.thinning);
+  EXPECT_FALSE(read.thinning->lost_sets.empty());
+  const std::vector<NamedSet>& left = std::get<NamedSurface>(read.scan).face_sets;
+  for (const NamedSet& dot : dots) {
+    const bool is_told = std::ranges::find(read.thinning->lost_sets, dot.name) != read.thinning->lost_sets.end();
+    EXPECT_EQ(std::ranges::find(left, dot.name, &NamedSet::name) == left.end(), is_told) << dot.name;
+  }
+  for (const NamedSet& set : left) EXPECT_FALSE(set.members.empty());
 }
 
 // Noise of the size of cells would make folds of them; what bends as much does not, see the torus above.

@@ -74,6 +74,10 @@ StageRecord describe(const Thinning& thinning, const std::string& scan, double s
       error_text(thinning.largest_distance, 3) + " from the other (" + error_text(percent, 2) + " % of the size), at " +
       error_text(thinning.farthest) + volume +
       "; what is told of distances and volumes is from the thinned one; --largest-scan sets how many are left");
+  for (const std::string& set : thinning.lost_sets)
+    record.warnings.push_back("the set " + set + " of " + scan +
+                              " is gone: it was smaller than what was thinned to a vertex, " +
+                              error_text(thinning.cell, 3) + "; try: a larger --largest-scan, or --set");
   return record;
 }
 

@@ -93,6 +93,17 @@ std::optional<double> volume_change(const GivenScan& given, const ThinnedSurface
   return *thinned.volume / given.volume - 1;
 }
 
+// Leaves no set without triangles, and gives back the names of those that lost them.
+std::vector<std::string> carry_sets(std::vector<NamedSet>& sets, const std::vector<std::uint32_t>& origin) {
+  std::erase_if(sets, [](const NamedSet& set) { return set.members.empty(); });
+  sets = carried_sets(sets, origin);
+  std::vector<std::string> lost;
+  for (const NamedSet& set : sets)
+    if (set.members.empty()) lost.push_back(set.name);
+  std::erase_if(sets, [](const NamedSet& set) { return set.members.empty(); });
+  return lost;
+}
+
 ThinnedScan thin(const ScanFile& file, const GivenScan& given, std::size_t largest, std::size_t needed,
                  const Progress& progress) {
   ClusterSeeds seeds = seeds_for(file, given, std::max(largest / 4, needed), needed, progress);
@@ -115,7 +126,7 @@ ThinnedScan thin(const ScanFile& file, const GivenScan& given, std::size_t large
                        .value = error_text(100 * *change, 3) + " %",
                        .limit = error_text(100 * largest_change) + " %",
                        .advice = "--largest-scan " + std::to_string(given.triangles)});
-  named.face_sets = carried_sets(named.face_sets, thinned.origin);
+  std::vector<std::string> lost_sets = carry_sets(named.face_sets, thinned.origin);
   named.mesh = std::move(thinned.mesh);
   const std::size_t left = named.mesh.triangles.size();
   return {.scan = std::move(named),
@@ -123,6 +134,7 @@ ThinnedScan thin(const ScanFile& file, const GivenScan& given, std::size_t large
                                .triangles = left,
                                .cell = cell,
                                .volume_change = change,
+                               .lost_sets = std::move(lost_sets),
                                .largest_distance = thinned.largest_distance,
                                .farthest = thinned.farthest}};
 }

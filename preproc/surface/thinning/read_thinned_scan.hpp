@@ -9,6 +9,8 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace scan2fea {
 
@@ -27,8 +29,9 @@ struct Thinning {
   // Of the volume within, where no border is left: from that of the given scan, over it. What is cut off of a curved
   // surface, and walls thinner than cells, which are gone.
   std::optional<double> volume_change;
-  double largest_distance = 0;   // bound between the two surfaces
-  Vec3 farthest = Vec3::Zero();  // where it is reached
+  std::vector<std::string> lost_sets;  // of triangles that are all gone
+  double largest_distance = 0;         // bound between the two surfaces
+  Vec3 farthest = Vec3::Zero();        // where it is reached
 };
 
 struct ThinnedScan {
