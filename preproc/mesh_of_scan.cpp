@@ -3,6 +3,7 @@
 #include "preproc/mesh/error.hpp"
 #include "preproc/mirrored_surface.hpp"
 #include "preproc/second_order.hpp"
+#include "preproc/slide_boundary.hpp"
 #include "preproc/stage_descriptions.hpp"
 #include "preproc/surface/curved/fit_curves.hpp"
 #include "preproc/surface/fit/preserve_volume.hpp"
@@ -82,6 +83,7 @@ class MeshMaker {
   void put_cut_onto_plane();
   void take_fewer_of_default(const Progress& progress);
   void tetrahedralize(const Progress& progress);
+  void slide(const Progress& progress);
   void curve(const Progress& progress);
   void curve_surface(const Progress& progress);
   void bring_back();
@@ -140,6 +142,7 @@ FilledSurface MeshMaker::run(const Progress& progress) {
     simplify(progress);
     if (half_ && search_) put_cut_onto_plane();
     if (options_.tetrahedralize) tetrahedralize(progress);
+    if (options_.tetrahedralize && options_.slide && search_) slide(progress);
     if (options_.tetrahedralize && options_.order == 2) curve(progress);
     if (!options_.tetrahedralize && search_ && options_.order == 2) curve_surface(progress);
   } catch (Error& error) {
@@ -231,6 +234,18 @@ void MeshMaker::tetrahedralize(const Progress& progress) {
     describe(renewal, in_scan_, record);
     note_left_out(in_time, "renewal of the surface around poor tetrahedra", record, result_);
     made_ = std::move(renewal.made);
+  });
+}
+
+void MeshMaker::slide(const Progress& progress) {
+  double most = options_.slide->distance;
+  if (options_.slide->unit == LargestDeviation::Unit::of_diagonal) most *= bounding_box(scan_.vertices).diagonal();
+  log_.run("slide", [&](StageRecord& record) {
+    SlideResult slid;
+    const Progress in_time = progress.until(progress.end());
+    in_time.improve([&](const Progress& p) { slid = slide_boundary(search_->planes(), most / in_scan_.unit(), made_, p); });
+    describe(slid, in_scan_, record);
+    note_left_out(in_time, "sliding of the surface", record, result_);
   });
 }
 

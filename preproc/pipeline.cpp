@@ -1,6 +1,7 @@
 #include "preproc/pipeline.hpp"
 
 #include "preproc/made_up.hpp"
+#include "preproc/mesh/error.hpp"
 #include "preproc/mesh_by_half.hpp"
 #include "preproc/mesh_of_scan.hpp"
 #include "preproc/named_parts.hpp"
@@ -31,6 +32,16 @@ std::vector<FaceOrigin> origins_of_scan(const PipelineResult& result, const Surf
   return seen == nullptr ? std::vector<FaceOrigin>() : origins_by_place(result.scan, *seen);
 }
 
+// Those of second order are fitted and filled anew: what was slid before is lost.
+void require_slidable(const PipelineOptions& options) {
+  if (!options.slide || (!options.symmetry && options.order == 1)) return;
+  throw WrongUsage({.what = "nodes slide on whole parts of first order only",
+                    .where = {},
+                    .value = options.symmetry ? "--slide with --symmetry" : "--slide with --order 2",
+                    .limit = {},
+                    .advice = options.symmetry ? "--symmetry off, or no --slide" : "--order 1, or no --slide"});
+}
+
 // Sets of what was made up, after the user's own.
 void add_made_up_sets(const SurfaceMesh& start, const std::vector<FaceOrigin>& of_start, PipelineResult& result) {
   if (of_start.empty()) return;
@@ -41,6 +52,7 @@ void add_made_up_sets(const SurfaceMesh& start, const std::vector<FaceOrigin>& o
 // `seen`: of a cloud, the faces that close no gap.
 void run_stages(SurfaceMesh scan, const SurfaceMesh* seen, const PipelineOptions& options, const Progress& progress,
                 StageLog& log, PipelineResult& result) {
+  require_slidable(options);
   const auto stairs = options.simplify ? find_stair_steps(scan) : std::nullopt;
   if (options.repair)
     log.run("repair", [&](StageRecord& record) {

@@ -30,6 +30,13 @@ struct SymmetryOptions {
   bool operator==(const SymmetryOptions&) const = default;
 };
 
+// Vertices of a surface that was simplified may go along the scan where that makes better tetrahedra; none farther than
+// this (slide_boundary.hpp). Of whole parts and first order: else WrongUsage.
+struct SlideOptions {
+  double distance = 0;  // > 0
+  LargestDeviation::Unit unit = LargestDeviation::Unit::model;
+};
+
 // A stage that is not asked for is left out; its input then goes on as it is.
 struct PipelineOptions {
   ReconstructOptions reconstruct;  // of a cloud
@@ -39,6 +46,7 @@ struct PipelineOptions {
   std::optional<SymmetryOptions> symmetry = {};
   std::optional<SimplifyOptions> simplify = SimplifyOptions{};
   std::optional<TetrahedralizeOptions> tetrahedralize = TetrahedralizeOptions{};
+  std::optional<SlideOptions> slide = {};
   int order = 1;  // 1: 4-node tetrahedra, 2: 10-node tetrahedra
   // Parts of the surface that get a name; their borders become lines of the mesh.
   std::vector<NamedSelection> sets = {};

@@ -204,6 +204,17 @@ void describe(const RenewalResult& renewal, const InScan& in_scan, StageRecord& 
     record.changes.emplace_back("largest_deviation", in_scan.unit() * made.simplified.largest_deviation);
 }
 
+void describe(const SlideResult& slid, const InScan& in_scan, StageRecord& record) {
+  record.changes = {{"vertices_moved", static_cast<double>(slid.moved)},
+                    {"most", in_scan.unit() * slid.most},
+                    {"largest_move", in_scan.unit() * slid.largest_move},
+                    {"min_dihedral_before_deg", slid.min_dihedral_before_deg},
+                    {"min_dihedral_after_deg", slid.min_dihedral_after_deg},
+                    {"max_dihedral_before_deg", slid.max_dihedral_before_deg},
+                    {"max_dihedral_after_deg", slid.max_dihedral_after_deg}};
+  if (!slid.is_taken) record.remarks.emplace_back("nothing was moved: no place along the scan is better");
+}
+
 void describe(const SecondOrderResult& result, const InScan& in_scan, StageRecord& record) {
   const CurveResult& curved = result.curved;
   const double unit = in_scan.unit();

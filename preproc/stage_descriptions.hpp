@@ -3,6 +3,7 @@
 
 #include "preproc/pipeline.hpp"
 #include "preproc/second_order.hpp"
+#include "preproc/slide_boundary.hpp"
 #include "preproc/surface/kernel/canonical_frame.hpp"
 #include "preproc/symmetry/half_scan.hpp"
 #include "preproc/tetrahedra_search.hpp"
@@ -35,6 +36,7 @@ void describe(const MirrorPlane& plane, StageRecord& record);
 void describe(const SimplifyResult& result, const InScan& in_scan, StageRecord& record);
 void describe(const TetrahedralizeResult& result, const InScan& in_scan, StageRecord& record);
 void describe(const RenewalResult& renewal, const InScan& in_scan, StageRecord& record);
+void describe(const SlideResult& slid, const InScan& in_scan, StageRecord& record);
 void describe(const SecondOrderResult& result, const InScan& in_scan, StageRecord& record);
 
 }  // namespace scan2fea

@@ -28,7 +28,7 @@ formats = {
     "scan2fea/2": "32f7bc33682e569d8f094d26ec03704aa3d03b5160602dae87d9cf171aeab045",
     "scan2fea/3": "756478214f0dbe022e285fa58727734eb02dafec2929f611e401f663247c956e",
     "scan2fea/4": "8fb091ccfef85fa6e28e93c92b0f85b6830110809d0481c04cb117d31a8382b3",
-    "scan2fea/5": "d38aaba5b79bf12e6c2873a8d9c39cdba67683eb4fe4e5fef85be098a8503d06",
+    "scan2fea/5": "e4e795b5f99844239c092aa2ffd48267e410a7324b8d8e640253927fdccf1809",
 }
 
 
@@ -54,7 +54,7 @@ def fingerprint(schema):
 def figures_of_commands(command, scan):
     with tempfile.TemporaryDirectory() as folder:
         part, surface = os.path.join(folder, "part.inp"), os.path.join(folder, "part.stl")
-        for arguments in (["run", scan, "-o", part, "--faces", "2000", "--unit", "mm", "--set", "foot=z<3mm"],
+        for arguments in (["run", scan, "-o", part, "--faces", "2000", "--unit", "mm", "--set", "foot=z<3mm", "--slide", "0.1%"],
                           ["surface", scan, "-o", surface, "--faces", "2000", "--enrich"],
                           ["repair", scan, "-o", os.path.join(folder, "repaired.ply")],
                           ["run", scan, "-o", os.path.join(folder, "b.vtu"), "--faces", "1500", "--order", "2"],

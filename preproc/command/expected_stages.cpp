@@ -72,6 +72,7 @@ std::vector<ExpectedStage> expected_stages(const MakeMeshJob& job, const Expecte
   std::vector<ExpectedStage> stages{{"read", read_byte * file_bytes_a_triangle * work.scan_triangles}};
   if (!work.triangles) add_surface_stages(job, work, triangles, stages);
   if (job.pipeline.tetrahedralize) stages.push_back({"tetrahedralize", fill_tetrahedron * tetrahedra});
+  if (job.pipeline.slide) stages.push_back({"slide", fill_tetrahedron * tetrahedra});
   if (job.pipeline.tetrahedralize && job.pipeline.order == 2)
     stages.push_back({"second order", curve_tetrahedron * tetrahedra});
   stages.push_back({"write", write_tetrahedron * tetrahedra});

@@ -318,6 +318,20 @@ void add_tetrahedralize_flags(CLI::App& command, TetrahedralizeOptions& options,
       ->type_name("Q");
 }
 
+void add_slide_flag(CLI::App& command, std::optional<SlideOptions>& slide) {
+  const OptionGroup group(command, "Tetrahedra");
+  command
+      .add_option_function<std::string>(
+          "--slide",
+          [&slide](const std::string& text) {
+            const RelativeLength most = parse_length("--slide", text, '%');
+            slide = {.distance = most.value,
+                     .unit = most.relative ? LargestDeviation::Unit::of_diagonal : LargestDeviation::Unit::model};
+          },
+          "Nodes of the surface go along the scan, this far at the most, where that makes better tetrahedra")
+      ->type_name("D|P%");
+}
+
 void add_contact_flag(CLI::App& command, std::optional<double>& tolerance) {
   const OptionGroup group(command, bodies_group);
   command

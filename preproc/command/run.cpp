@@ -28,6 +28,7 @@ SubCommand add_run(CLI::App& root) {
   app->get_option("--holes")->description(
       "What becomes of holes: close; with keep no volume fits in (scan2fea surface)");
   add_tetrahedralize_flags(*app, *job->pipeline.tetrahedralize, job->pipeline.order);
+  add_slide_flag(*app, job->pipeline.slide);
   add_deck_flag(*app, job->deck);
   add_parts_flag(*app, job->parts);
   add_msh_version_flag(*app, job->msh_version);

@@ -23,6 +23,7 @@ constexpr std::array stages{Words{"read", "reading"},
                             Words{"interfaces", "laying triangles between bodies"},
                             Words{"tetrahedralize", "filling with tetrahedra"},
                             Words{"renewal", "improving poor tetrahedra"},
+                            Words{"slide", "sliding the surface's nodes"},
                             Words{"second order", "curving sides"},
                             Words{"measure", "measuring"},
                             Words{"report", "drawing the report"},
@@ -93,6 +94,13 @@ std::string summary(const StageRecord& stage) {
   if (stage.name == "tetrahedralize" && figure(stage, "nodes")) return told_tetrahedra(stage);
   if (stage.name == "second order" && figure(stage, "nodes"))
     return told_tetrahedra(stage) + ", scaled Jacobian at least " + number(*figure(stage, "least_scaled_jacobian"));
+  if (stage.name == "slide" && stage.remarks.empty())
+    return count(*figure(stage, "vertices_moved")) + " nodes moved by at most " +
+           number(*figure(stage, "largest_move")) + "; dihedral angles " +
+           number(*figure(stage, "min_dihedral_after_deg")) + " to " +
+           number(*figure(stage, "max_dihedral_after_deg")) + " deg, were " +
+           number(*figure(stage, "min_dihedral_before_deg")) + " to " +
+           number(*figure(stage, "max_dihedral_before_deg"));
   if (stage.name == "renewal" && figure(stage, "min_dihedral_before_deg")) {
     const double before = *figure(stage, "min_dihedral_before_deg"), after = *figure(stage, "min_dihedral_after_deg");
     return before == after ? "nothing better than the smallest dihedral angle of " + number(before) + " deg"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace scan2fea {
 namespace {
@@ -24,13 +25,14 @@ Vec3 quality_gradient(const std::array<Vec3, 3>& f, const Vec3& x, double qualit
   return gradient;
 }
 
-Gradients active_gradients(const StarFaces& faces, const Vec3& x, double least, double difference) {
+template <class Way>
+Gradients active_gradients(const StarFaces& faces, const Vec3& x, double least, double difference, const Way& way) {
   Gradients active;
   const double limit = least + active_margin * (1 + std::abs(least));
   for (const auto& f : faces) {
     const double q = goal_quality(f[0], f[1], f[2], x);
     if (q > limit) continue;
-    active.of[active.size++] = quality_gradient(f, x, q, difference);
+    active.of[active.size++] = way.allowed(quality_gradient(f, x, q, difference));
     if (active.size == most_active) break;
   }
   return active;
@@ -59,29 +61,67 @@ double nearest_corner(const StarFaces& faces, const Vec3& x) {
   return std::sqrt(least);
 }
 
-}  // namespace
-
-bool relocate_max_min(const StarFaces& faces, Vec3& x, double& quality, int steps) {
+// Way: `allowed` is what of a direction may be gone, and `at` the place that is taken for one that is wanted.
+template <class Way>
+bool ascend(const StarFaces& faces, Way& way, Vec3& x, double& quality, int steps) {
   const double radius = nearest_corner(faces, x);
   double length = 0.2 * radius;
   bool moved = false;
   for (int step = 0; step < steps; ++step) {
-    const Vec3 direction = shortest_in_hull(active_gradients(faces, x, quality, 1e-6 * radius));
+    const Vec3 direction = shortest_in_hull(active_gradients(faces, x, quality, 1e-6 * radius, way));
     const double slope = direction.norm();
     if (!(slope * radius > 1e-3)) break;
     bool rose = false;
     for (int attempt = 0; attempt < 6 && !rose; ++attempt, length /= 3) {
-      const Vec3 candidate = x + direction * (length / slope);
-      const double reached = star_quality(faces, candidate, quality);
+      const std::optional<Vec3> candidate = way.at(x + direction * (length / slope));
+      if (!candidate) continue;
+      const double reached = star_quality(faces, *candidate, quality);
       if (!(reached > quality * (1 + 1e-4))) continue;
-      x = candidate;
+      x = *candidate;
       quality = reached;
       rose = moved = true;
+      way.take();
       length *= 6;  // twice as far next time, after the division
     }
     if (!rose) break;
   }
   return moved;
+}
+
+struct Anywhere {
+  const Vec3& allowed(const Vec3& direction) const { return direction; }
+  std::optional<Vec3> at(const Vec3& wanted) const { return wanted; }
+  void take() const {}
+};
+
+struct OnBoundary {
+  const BoundaryWays& ways;
+  std::uint32_t node;
+  WayPoint here, next;
+
+  Vec3 allowed(const Vec3& direction) const { return here.allowed(direction); }
+  std::optional<Vec3> at(const Vec3& wanted) {
+    const std::optional<WayPoint> point = ways(node, wanted);
+    if (!point) return {};
+    next = *point;
+    return next.place;
+  }
+  void take() { here = next; }
+};
+
+}  // namespace
+
+bool relocate_max_min(const StarFaces& faces, Vec3& x, double& quality, int steps) {
+  Anywhere way;
+  return ascend(faces, way, x, quality, steps);
+}
+
+bool slide_max_min(const StarFaces& faces, const BoundaryWays& ways, std::uint32_t node, Vec3& x, double& quality,
+                   int steps) {
+  const std::optional<WayPoint> here = ways(node, x);
+  if (!here) return false;
+  OnBoundary way{ways, node, *here, *here};
+  return ascend(faces, way, x, quality, steps);
 }
 
 }  // namespace scan2fea

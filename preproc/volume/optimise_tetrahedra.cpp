@@ -4,6 +4,7 @@
 #include "preproc/volume/entropy_smoothing.hpp"
 #include "preproc/volume/max_min_relocation.hpp"
 #include "preproc/volume/multi_face_removal.hpp"
+#include "preproc/volume/patch_relocation.hpp"
 #include "preproc/volume/tet_complex.hpp"
 #include "preproc/volume/vertex_insertion.hpp"
 #include "preproc/volume/vertex_removal.hpp"
@@ -17,6 +18,10 @@ namespace {
 
 constexpr double topology_gain = 1.0005;
 constexpr double insertion_gain = 1.02;
+// Patches cost as much as a thousand other moves. From good_of_patches on, dihedral angles of 34 to 128 degrees, they
+// are not worth it; and on bodies of poor elements everywhere the worst have to do.
+constexpr double good_of_patches = 1.5;
+constexpr std::size_t patches_at_least = 8, elements_a_patch = 2000;
 // Stars without an element worse than this are left as the lattice made them.
 constexpr double smoothing_threshold = 2;
 constexpr int relocation_steps = 8;
@@ -34,8 +39,8 @@ constexpr std::uint32_t tried_topology = 1, tried_insertion = 2, tried_relocatio
 
 class Optimisation {
  public:
-  Optimisation(const TetMesh& mesh, const OptimiseOptions& options, const Progress& progress)
-      : complex_(mesh), options_(options), progress_(progress) {}
+  Optimisation(const TetMesh& mesh, const OptimiseOptions& options, const BoundaryWays& ways, const Progress& progress)
+      : complex_(mesh), options_(options), ways_(ways), progress_(progress) {}
 
   OptimiseResult run() {
     result_.worst_before = worst();
@@ -54,6 +59,10 @@ class Optimisation {
       least = result_.worst_after;
       topology(true);
       relocation();
+      result_.worst_after = worst();
+    }
+    if (options_.patches) {
+      patches();
       result_.worst_after = worst();
     }
     report(1);
@@ -104,6 +113,11 @@ class Optimisation {
       if (complex_.alive(t) && element.quality < options_.threshold && !(element.tried & tried))
         bad.push_back({element.quality, t, element.version});
     }
+    return bad;
+  }
+
+  static std::vector<Candidate> sorted(std::vector<Candidate> bad) {  // the worst first
+    std::sort(bad.begin(), bad.end(), [](const Candidate& a, const Candidate& b) { return b < a; });
     return bad;
   }
 
@@ -183,19 +197,19 @@ class Optimisation {
   }
 
   void relocation() {
-    std::vector<Candidate> bad = bad_elements(tried_relocation);
-    std::sort(bad.begin(), bad.end(), [](const Candidate& a, const Candidate& b) { return b < a; });
-    for (const Candidate& candidate : bad) {
+    for (const Candidate& candidate : sorted(bad_elements(tried_relocation))) {
       if (time_is_up()) return;
       const TetComplex::Element& element = complex_.element(candidate.element);
       if (!complex_.alive(candidate.element) || element.quality >= options_.threshold) continue;
       const Tetrahedron corners = element.corners;
       bool moved = false;
       for (const std::uint32_t v : corners) {
-        if (complex_.fixed(v)) continue;
+        if (complex_.fixed(v) && !ways_) continue;
         double quality = look_from(complex_, v, around_, faces_);
         Vec3 place = complex_.node(v);
-        if (!relocate_max_min(faces_, place, quality, relocation_steps)) continue;
+        if (!(complex_.fixed(v) ? slide_max_min(faces_, ways_, v, place, quality, relocation_steps)
+                                : relocate_max_min(faces_, place, quality, relocation_steps)))
+          continue;
         complex_.move_node(v, place, around_);
         moved = true;
       }
@@ -206,8 +220,22 @@ class Optimisation {
     }
   }
 
+  // Around the worst first, each as long as it gains.
+  void patches() {
+    const double good = std::min(options_.threshold, good_of_patches);
+    std::size_t left = patches_at_least + complex_.slot_count() / elements_a_patch;
+    for (const Candidate& candidate : sorted(bad_elements(0))) {
+      const std::uint32_t t = candidate.element;
+      for (bool gains = true; gains && left > 0 && complex_.quality(t) < good && !time_is_up(); --left) {
+        gains = relocate_patch(complex_, t, ways_, *options_.patches);
+        if (gains) ++result_.patches;
+      }
+    }
+  }
+
   TetComplex complex_;
   const OptimiseOptions& options_;
+  const BoundaryWays& ways_;  // empty where the boundary stays
   const Progress& progress_;
   OptimiseResult result_;
   VertexInsertion insertion_;
@@ -230,13 +258,19 @@ OptimiseOptions optimise_options(Effort effort) {
   if (effort == Effort::high) {
     options.threshold = 1.6;
     options.insertion_rounds = 3;
+    options.patches = PatchOptions{};
   }
   return options;
 }
 
 OptimiseResult optimise_tetrahedra(TetMesh& mesh, std::size_t kept, const OptimiseOptions& options,
                                    const Progress& progress) {
-  Optimisation optimisation(mesh, options, progress);
+  return optimise_tetrahedra(mesh, kept, options, {}, progress);
+}
+
+OptimiseResult optimise_tetrahedra(TetMesh& mesh, std::size_t kept, const OptimiseOptions& options,
+                                   const BoundaryWays& ways, const Progress& progress) {
+  Optimisation optimisation(mesh, options, ways, progress);
   const OptimiseResult result = optimisation.run();
   mesh = optimisation.complex().to_mesh(kept);
   return result;

@@ -70,4 +70,22 @@ double goal_quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, 
                   std::min(sine / sin_22_deg, (1 + signed_root(cosines.smallest)) / one_plus_cos_138_deg));
 }
 
+GoalTerms goal_terms(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double jacobian_counts) {
+  const Shape s = shape_of(a, b, c, d);
+  const std::array<Vec3, 4> normals{s.na.normalized(), s.nb.normalized(), s.nc.normalized(), s.nd.normalized()};
+  GoalTerms terms;
+  std::size_t k = 0;
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = i + 1; j < 4; ++j) {
+      const double cosine = std::clamp(-normals[i].dot(normals[j]), -1.0, 1.0);
+      const double of_sine = std::sqrt(1 - cosine * cosine) / sin_22_deg;
+      terms[k++] = cosine > 0 ? of_sine : std::min(of_sine, (1 + cosine) / one_plus_cos_138_deg);
+    }
+  const double ab = (b - a).norm(), ac = (c - a).norm(), ad = (d - a).norm();
+  const double bc = (c - b).norm(), bd = (d - b).norm(), cd = (d - c).norm();
+  for (const double product : {ab * ac * ad, ab * bc * bd, ac * bc * cd, ad * bd * cd})
+    terms[k++] = s.jacobian / product * (jacobian_counts * std::numbers::sqrt2 / good_scaled_jacobian);
+  return terms;
+}
+
 }  // namespace scan2fea

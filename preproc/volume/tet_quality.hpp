@@ -3,6 +3,8 @@
 
 #include "preproc/mesh/surface_mesh.hpp"
 
+#include <array>
+
 namespace scan2fea {
 
 // One number for three goals: the least of
@@ -14,5 +16,11 @@ namespace scan2fea {
 // Exact only above `floor`; below, some value that is not above it: most tetrahedra that the optimisation looks at are
 // worse than what they would replace, and are found out early. Some 25 ns.
 double goal_quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double floor = 0);
+
+// What it is the least of: one term for each dihedral angle, and one for the three edges at each corner, times
+// `jacobian_counts`. Smooth in the corners but where an angle passes 90 degrees, or 108. For positive tetrahedra. Some
+// 60 ns.
+using GoalTerms = std::array<double, 10>;
+GoalTerms goal_terms(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double jacobian_counts);
 
 }  // namespace scan2fea

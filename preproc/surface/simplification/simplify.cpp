@@ -252,6 +252,10 @@ double Simplification::way_off() const {
   return state_->search->way_off();
 }
 
+const PlanesOfScan& Simplification::planes() const {
+  return state_->search->planes();
+}
+
 FittedCurves Simplification::curved(const SimplifyResult& result, const SurfaceMesh& surface, bool keep_corners,
                                     const Progress& progress) const {
   return fit_curves(surface, result.on_scan->net, result.on_scan->scan->reference(), state_->search->planes(),

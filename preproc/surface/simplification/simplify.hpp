@@ -15,6 +15,7 @@
 namespace scan2fea {
 
 struct FittedCurves;
+class PlanesOfScan;
 
 // `mesh` must be manifold, outward and free of self-intersections (see `repair`), closed or with borders; so is the
 // result, with the same genus, components and borders, and with a chain of edges along each crease. The enclosed volume
@@ -48,6 +49,9 @@ class Simplification {
   std::vector<bool> held() const;
   // How far its other vertices may go off it: as far as it is from the scan, where no deviation was asked for.
   double way_off() const;
+
+  // What is plane on the scan.
+  const PlanesOfScan& planes() const;
 
   // Curved triangles of one of these surfaces, by its result; see fit_curves.hpp.
   FittedCurves curved(const SimplifyResult& result, const SurfaceMesh& surface, bool keep_corners = false,
