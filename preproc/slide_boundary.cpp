@@ -3,6 +3,7 @@
 #include "preproc/surface/fit/preserve_volume.hpp"
 #include "preproc/surface/kernel/clear_moves.hpp"
 #include "preproc/surface/simplification/surface_on_scan.hpp"
+#include "preproc/surface/simplification/vertices_beyond.hpp"
 #include "preproc/ways_on_scan.hpp"
 #include "quality/deviation_bound.hpp"
 #include "quality/tetrahedron_measures.hpp"
@@ -46,48 +47,69 @@ void note_angles(const TetSummary& before, const TetSummary& after, SlideResult&
 }
 
 // The surface with its vertices there, as far as nothing meets, and the scan's volume; nothing where it would lose
-// that, or a deviation that was asked for.
+// that. `beyond` are the vertices where it would lose a deviation that was asked for.
 std::optional<SurfaceMesh> moved_to(const std::vector<Vec3>& places, const SurfaceMesh& given,
-                                    const PlanesOfScan& planes, SimplifyResult& simplified) {
+                                    const PlanesOfScan& planes, SimplifyResult& simplified,
+                                    std::vector<std::uint32_t>& beyond) {
   const FeatureNet& net = simplified.on_scan->net;
   const PreparedScan& scan = *simplified.on_scan->scan;
   SurfaceMesh surface = given;
   move_clear(surface, places);
   const std::vector<Vec3> outwards = planes.empty() ? std::vector<Vec3>() : planes.vertices_of(given, net).outwards;
   if (!preserve_volume_clear(surface, scan.mesh, held_lines(net, places.size()), outwards)) return {};
-  if (simplified.largest_deviation > 0) {
-    const double asked = simplified.aimed_deviation, before = simplified.largest_deviation;
-    simplified.largest_deviation = bound_deviation(surface, scan.deviation_reference(), {.limit = asked}).upper();
-    if (before <= asked && simplified.largest_deviation > asked) return {};
+  const double asked = simplified.aimed_deviation, before = simplified.largest_deviation;
+  if (before > 0) {
+    const DeviationBound bound = bound_deviation(surface, scan.deviation_reference(), {.limit = asked});
+    if (before <= asked) beyond = vertices_beyond(surface, bound, asked);
+    simplified.largest_deviation = bound.upper();
   }
   return surface;
+}
+
+// With these vertices held; those of `beyond` are to be held, too, before the result may be taken.
+SlideResult slide(const PlanesOfScan& planes, double most, const std::vector<bool>& held, FilledSurface& made,
+                  std::vector<std::uint32_t>& beyond, const Progress& progress) {
+  SlideResult result{.most = most};
+  const TetSummary before = measure_tetrahedra(made.filled.mesh);
+  note_angles(before, before, result);
+  const SurfaceOnScan& on_scan = *made.simplified.on_scan;
+  TetMesh mesh = made.filled.mesh;
+  const auto vertices = static_cast<std::ptrdiff_t>(held.size());
+  const BoundaryWays ways =
+      ways_on_scan(made.surface, on_scan.net, on_scan.scan->reference(), planes, share_of_slide * most);
+  const BoundaryWays some = [&](std::uint32_t v, const Vec3& wanted) {
+    return held[v] ? std::optional<WayPoint>() : ways(v, wanted);
+  };
+  optimise_tetrahedra(mesh, held.size(), slide_options, some, progress);
+
+  SimplifyResult simplified = made.simplified;
+  std::optional<SurfaceMesh> surface =
+      moved_to({mesh.nodes.begin(), mesh.nodes.begin() + vertices}, made.surface, planes, simplified, beyond);
+  if (!surface || !beyond.empty()) return result;
+  std::ranges::copy(surface->vertices, mesh.nodes.begin());
+  const TetSummary after = measure_tetrahedra(mesh);
+  SlideResult slid{.most = most, .is_taken = true};
+  note_angles(before, after, slid);
+  note_moves(made.surface.vertices, surface->vertices, slid);
+  if (slid.largest_move > most || !is_better(after, before)) return result;
+  made.surface = std::move(*surface);
+  made.simplified = std::move(simplified);
+  made.filled.mesh = std::move(mesh);
+  return slid;
 }
 
 }  // namespace
 
 SlideResult slide_boundary(const PlanesOfScan& planes, double most, FilledSurface& made, const Progress& progress) {
-  SlideResult nothing{.most = most}, result{.most = most, .is_taken = true};
-  const TetSummary before = measure_tetrahedra(made.filled.mesh);
-  note_angles(before, before, nothing);
-  const SurfaceOnScan& on_scan = *made.simplified.on_scan;
-  TetMesh mesh = made.filled.mesh;
-  const auto vertices = static_cast<std::ptrdiff_t>(made.surface.vertices.size());
-  const BoundaryWays ways =
-      ways_on_scan(made.surface, on_scan.net, on_scan.scan->reference(), planes, share_of_slide * most);
-  optimise_tetrahedra(mesh, made.surface.vertices.size(), slide_options, ways, progress);
-
-  SimplifyResult simplified = made.simplified;
-  std::optional<SurfaceMesh> surface =
-      moved_to({mesh.nodes.begin(), mesh.nodes.begin() + vertices}, made.surface, planes, simplified);
-  if (!surface) return nothing;
-  std::ranges::copy(surface->vertices, mesh.nodes.begin());
-  const TetSummary after = measure_tetrahedra(mesh);
-  note_angles(before, after, result);
-  note_moves(made.surface.vertices, surface->vertices, result);
-  if (result.largest_move > most || !is_better(after, before)) return nothing;
-  made.surface = std::move(*surface);
-  made.simplified = std::move(simplified);
-  made.filled.mesh = std::move(mesh);
+  constexpr int most_trials = 4;
+  std::vector<bool> held(made.surface.vertices.size(), false);
+  SlideResult result;
+  for (int trial = 0; trial < most_trials; ++trial) {
+    std::vector<std::uint32_t> beyond;
+    result = slide(planes, most, held, made, beyond, progress);
+    if (beyond.empty()) break;
+    for (const std::uint32_t v : beyond) held[v] = true;
+  }
   return result;
 }
 

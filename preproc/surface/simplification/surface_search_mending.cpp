@@ -6,7 +6,7 @@
 #include "preproc/surface/mending/mend_places.hpp"
 #include "preproc/surface/simplification/deviation_at_scan.hpp"
 #include "preproc/surface/simplification/surface_search.hpp"
-#include "quality/triangle_tree.hpp"
+#include "preproc/surface/simplification/vertices_beyond.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,22 +23,6 @@ constexpr double few_bad_places = 0.03;
 
 // Of a deviation, what is left to the shift that restores the volume.
 constexpr double for_volume = 0.005;
-
-// Where a surface is farther from its reference, or that from it.
-std::vector<std::uint32_t> vertices_beyond(const SurfaceMesh& mesh, const DeviationBound& bound, double distance) {
-  std::vector<Vec3> places;
-  for (const OneSidedDeviation* side : {&bound.to_reference, &bound.to_mesh})
-    for (std::size_t f = 0; f < side->upper.size(); ++f)
-      if (side->upper[f] > distance) places.push_back(side->farthest[f]);
-  std::vector<std::uint32_t> vertices;
-  if (places.empty()) return vertices;
-  const TriangleTree tree(mesh);
-  for (const Vec3& p : places) {
-    const Triangle& t = mesh.triangles[tree.closest(p).triangle];
-    vertices.insert(vertices.end(), t.begin(), t.end());
-  }
-  return vertices;
-}
 
 }  // namespace
 
