@@ -66,6 +66,15 @@ std::optional<SurfaceMesh> moved_to(const std::vector<Vec3>& places, const Surfa
   return surface;
 }
 
+// What moves beside them takes them along.
+void hold_around(const std::vector<std::uint32_t>& vertices, const SurfaceMesh& surface, std::vector<bool>& held) {
+  std::vector<bool> is_one(held.size(), false);
+  for (const std::uint32_t v : vertices) is_one[v] = true;
+  for (const Triangle& t : surface.triangles)
+    if (is_one[t[0]] || is_one[t[1]] || is_one[t[2]])
+      for (const std::uint32_t v : t) held[v] = true;
+}
+
 // With these vertices held; those of `beyond` are to be held, too, before the result may be taken.
 SlideResult slide(const PlanesOfScan& planes, double most, const std::vector<bool>& held, FilledSurface& made,
                   std::vector<std::uint32_t>& beyond, const Progress& progress) {
@@ -101,14 +110,14 @@ SlideResult slide(const PlanesOfScan& planes, double most, const std::vector<boo
 }  // namespace
 
 SlideResult slide_boundary(const PlanesOfScan& planes, double most, FilledSurface& made, const Progress& progress) {
-  constexpr int most_trials = 4;
+  constexpr int most_trials = 6;
   std::vector<bool> held(made.surface.vertices.size(), false);
   SlideResult result;
   for (int trial = 0; trial < most_trials; ++trial) {
     std::vector<std::uint32_t> beyond;
     result = slide(planes, most, held, made, beyond, progress);
     if (beyond.empty()) break;
-    for (const std::uint32_t v : beyond) held[v] = true;
+    hold_around(beyond, made.surface, held);
   }
   return result;
 }

@@ -18,7 +18,7 @@ struct SlideResult {
 // `made` came of a simplification, `planes` of the same scan. Nodes inside and vertices of the surface are moved by
 // turns, the latter along the scan, its lines and planes (ways_on_scan.hpp), no farther than `most` each: so the
 // surface stays within `most` of what it was, both ways. Its volume is that of the scan again, and nothing meets that
-// did not before. Where a deviation that was asked for would be lost, vertices stay, three times at most. About as long
+// did not before. Where a deviation that was asked for would be lost, vertices stay, five times at most. About as long
 // as the optimisation that went before, for each.
 SlideResult slide_boundary(const PlanesOfScan& planes, double most, FilledSurface& made, const Progress& progress);
 
