@@ -15,7 +15,7 @@ struct Change {
 };
 
 // Against the gradient, in the metric that the last changes tell of.
-Eigen::VectorXd direction(const Eigen::VectorXd& gradient, const std::deque<Change>& changes) {
+Eigen::VectorXd descent_direction(const Eigen::VectorXd& gradient, const std::deque<Change>& changes) {
   Eigen::VectorXd d = -gradient;
   std::vector<double> along;
   for (const Change& change : changes | std::views::reverse) {
@@ -71,7 +71,7 @@ void descend(const Energy& energy, Eigen::VectorXd& x, int most_steps) {
   point.value = energy(x, point.gradient);
   std::deque<Change> changes;
   for (int step = 0; step < most_steps && point.gradient.norm() > 0; ++step) {
-    Eigen::VectorXd d = direction(point.gradient, changes);
+    Eigen::VectorXd d = descent_direction(point.gradient, changes);
     double slope = d.dot(point.gradient);
     if (!(slope < 0)) {
       changes.clear();

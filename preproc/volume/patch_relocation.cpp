@@ -15,7 +15,7 @@ namespace scan2fea {
 namespace {
 
 constexpr std::array<double, 2> sharpness{16, 64};
-constexpr int most_steps = 40;  // with each
+constexpr int steps_with_each = 40;
 
 class Patch {
  public:
@@ -40,7 +40,7 @@ class Patch {
     Eigen::VectorXd x = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(nodes_.size()));
     for (const double b : sharpness)
       descend([&](const Eigen::VectorXd& at, Eigen::VectorXd& gradient) { return energy(b, at, gradient); }, x,
-              most_steps);
+              steps_with_each);
     put(x);
   }
 
