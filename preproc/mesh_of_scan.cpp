@@ -243,7 +243,8 @@ void MeshMaker::slide(const Progress& progress) {
   log_.run("slide", [&](StageRecord& record) {
     SlideResult slid;
     const Progress in_time = progress.until(progress.end());
-    in_time.improve([&](const Progress& p) { slid = slide_boundary(search_->planes(), most / in_scan_.unit(), made_, p); });
+    in_time.improve(
+        [&](const Progress& p) { slid = slide_boundary(search_->planes(), most / in_scan_.unit(), made_, p); });
     describe(slid, in_scan_, record);
     note_left_out(in_time, "sliding of the surface", record, result_);
   });

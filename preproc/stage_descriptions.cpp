@@ -212,7 +212,8 @@ void describe(const SlideResult& slid, const InScan& in_scan, StageRecord& recor
                     {"min_dihedral_after_deg", slid.min_dihedral_after_deg},
                     {"max_dihedral_before_deg", slid.max_dihedral_before_deg},
                     {"max_dihedral_after_deg", slid.max_dihedral_after_deg}};
-  if (!slid.is_taken) record.remarks.emplace_back("nothing was moved: no place along the scan is better, or none within the deviation");
+  if (!slid.is_taken)
+    record.remarks.emplace_back("nothing was moved: no place along the scan is better, or none within the deviation");
 }
 
 void describe(const SecondOrderResult& result, const InScan& in_scan, StageRecord& record) {
