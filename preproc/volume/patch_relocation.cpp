@@ -112,12 +112,7 @@ class Patch {
     length_ = (places_[one[0]] - places_[one[1]]).norm();
   }
 
-  double quality(std::size_t e) const {
-    const Tetrahedron& c = elements_[e];
-    return goal_quality(places_[c[0]], places_[c[1]], places_[c[2]], places_[c[3]]);
-  }
-
-  // False where a node would go too far.
+  // False where a node has no way.
   bool put(const Eigen::VectorXd& x) {
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
       const Vec3 wanted = nodes_[i].start + length_ * x.segment<3>(3 * static_cast<Eigen::Index>(i));
@@ -145,10 +140,10 @@ class Patch {
     weights_.resize(elements_.size());
     double least = outside;
     for (std::size_t e = 0; e < elements_.size(); ++e) {
-      if (!(quality(e) > 0)) return outside;
       terms_[e] = terms(e);
       least = std::min(least, *std::ranges::min_element(terms_[e]));
     }
+    if (!(least > 0)) return outside;  // an element is flat or turned over
     double sum = 0;
     for (std::size_t e = 0; e < elements_.size(); ++e) {
       weights_[e] = (b * (least - Eigen::Map<const TermArray>(terms_[e].data()))).exp();

@@ -18,8 +18,8 @@ namespace scan2fea {
 double goal_quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double floor = 0);
 
 // What it is the least of: one term for each dihedral angle, and one for the three edges at each corner, times
-// `jacobian_counts`. Smooth in the corners but where an angle passes 90 degrees, or 108. For positive tetrahedra. Some
-// 60 ns.
+// `jacobian_counts`. Smooth in the corners but where an angle passes 90 degrees, or 108. One is not positive where the
+// tetrahedron is not. Some 60 ns.
 using GoalTerms = std::array<double, 10>;
 GoalTerms goal_terms(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double jacobian_counts);
 

@@ -49,8 +49,8 @@ struct ThinningLimit {
 
 // `read_named_scan` otherwise; clouds are never thinned here. A file that may hold more triangles is gone through three
 // times, and memory holds what read_cloud.hpp says of blocks, and 150 bytes for each triangle that is left. Sets of
-// triangles are carried. Throws what readers throw, Cancelled, and NotMeshable where
-// nothing is left or more than 5 % of the volume goes or comes.
+// triangles are carried. Throws what readers throw, Cancelled, and NotMeshable where nothing is left or more than 5 % of the
+// volume goes or comes.
 ThinnedScan read_thinned_scan(const std::filesystem::path& path, const ThinningLimit& limit = {},
                               const Progress& progress = {});
 
