@@ -410,6 +410,7 @@ PipelineResult run_pipeline_of_bodies(std::vector<Body> bodies, const JoinOption
   if (bodies.size() < 2) refuse("fewer than two bodies", "run_pipeline");
   if (options.enrich) refuse("several bodies are not enriched", "scan2fea enrich for each of them, first");
   if (options.slide) refuse("nodes of several bodies do not slide", "no --slide");
+  if (!options.layers.empty()) refuse("several bodies get no layers", "no --layers");
   if (options.symmetry) refuse("several bodies have no mirror plane in common", "--symmetry off");
   if (!options.simplify || options.simplify->method != SimplifyMethod::lattice)
     refuse("several bodies are simplified by the lattice method alone", "--method lattice");

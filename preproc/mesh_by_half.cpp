@@ -80,7 +80,7 @@ FilledSurface mesh_by_half(const SurfaceMesh& scan, const std::optional<StairSte
     if (auto& given = options.simplify->given_features) given = lines_on_half(*given, *frame);
   }
   const Half of_scan{half, *frame};
-  FilledSurface made = mesh_of_scan(half.mesh, stairs, options, &of_scan, progress, result, log);
+  FilledSurface made = mesh_of_scan(half.mesh, stairs, options, &of_scan, {}, progress, result, log);
   MirroredSurface whole;
   log.run("mirror", [&](StageRecord& record) {
     whole = mirrored(std::move(made), *frame);

@@ -1,5 +1,7 @@
 #include "preproc/mesh_of_scan.hpp"
 
+#include "preproc/add_layers.hpp"
+#include "preproc/layers/column_heights.hpp"
 #include "preproc/mesh/error.hpp"
 #include "preproc/mirrored_surface.hpp"
 #include "preproc/second_order.hpp"
@@ -60,7 +62,7 @@ void note_left_out(const Progress& stage, const char* what, StageRecord& record,
 class MeshMaker {
  public:
   MeshMaker(const SurfaceMesh& scan, const std::optional<StairSteps>& stairs, const PipelineOptions& options,
-            const Half* half, PipelineResult& result, StageLog& log)
+            const Half* half, const LayersOf& layers_of, PipelineResult& result, StageLog& log)
       : scan_(scan),
         options_(options),
         simplification_(options.simplify.value_or(SimplifyOptions{})),
@@ -68,6 +70,7 @@ class MeshMaker {
         result_(result),
         log_(log),
         half_(half),
+        layers_of_(layers_of),
         in_scan_(frame_, half ? &half->frame : nullptr) {
     place();
     adapt(stairs);
@@ -84,6 +87,7 @@ class MeshMaker {
   void take_fewer_of_default(const Progress& progress);
   void tetrahedralize(const Progress& progress);
   void slide(const Progress& progress);
+  void layer(const Progress& progress);
   void curve(const Progress& progress);
   void curve_surface(const Progress& progress);
   void bring_back();
@@ -101,6 +105,7 @@ class MeshMaker {
   std::string voxel_remark_;
   FilledSurface made_;
   const Half* half_;
+  const LayersOf& layers_of_;
   InScan in_scan_;
 };
 
@@ -143,7 +148,9 @@ FilledSurface MeshMaker::run(const Progress& progress) {
     if (half_ && search_) put_cut_onto_plane();
     if (options_.tetrahedralize) tetrahedralize(progress);
     if (options_.tetrahedralize && options_.slide && search_) slide(progress);
-    if (options_.tetrahedralize && options_.order == 2) curve(progress);
+    const bool has_layers = options_.tetrahedralize && layers_of_ && search_;
+    if (has_layers) layer(progress);
+    if (options_.tetrahedralize && options_.order == 2 && !has_layers) curve(progress);
     if (!options_.tetrahedralize && search_ && options_.order == 2) curve_surface(progress);
   } catch (Error& error) {
     ErrorParts parts = error.parts();
@@ -250,6 +257,34 @@ void MeshMaker::slide(const Progress& progress) {
   });
 }
 
+// Curved sides move the corners, too, so that these are fitted before.
+void MeshMaker::layer(const Progress& progress) {
+  const bool is_curved = options_.order == 2;
+  const Progress in_time = progress.until(progress.end());
+  std::optional<FittedCurves> fitted;
+  LayersResult layers;
+  log_.run("layers", [&](StageRecord& record) {
+    if (is_curved) {
+      fitted = search_->curved(made_.simplified, made_.surface, false, in_time);
+      made_.surface = fitted->surface.corners;
+    }
+    SurfaceMesh in_scan = made_.surface;
+    if (frame_) frame_->bring_back(in_scan.vertices, scan_);
+    LayeredTriangles layered = layers_of_(in_scan, made_.simplified.line_edges);
+    for (LayerHeights& heights : layered.heights) heights.first /= in_scan_.unit();
+    require_high_layers(made_.surface, layered, is_curved ? flattest_curved : flattest_straight, in_scan_.unit());
+    layers = add_layers(layered, search_->planes(), tetrahedralization_, is_curved, made_, in_time);
+    describe(layers, in_scan_, record);
+  });
+  if (!is_curved) return;
+  log_.run("second order", [&](StageRecord& record) {
+    SecondOrderResult curved = curve_layers(*fitted, layers.parallel, made_, in_time);
+    curved.parted_elements = layers.parted_elements;
+    describe(curved, in_scan_, record);
+    note_left_out(in_time, "curved sides that are fitted to the scan", record, result_);
+  });
+}
+
 void MeshMaker::curve(const Progress& progress) {
   log_.run("second order", [&](StageRecord& record) {
     SecondOrderResult curved;
@@ -289,8 +324,9 @@ void MeshMaker::bring_back() {
 }  // namespace
 
 std::vector<WeakPlace> checked_for_solvers(const SurfaceMesh& surface, const TetMesh* volume_mesh,
-                                           const SurfaceMesh& scan, const PipelineOptions& options) {
-  std::vector<WeakPlace> places = find_weak_places(surface, volume_mesh, scan);
+                                           const SurfaceMesh& scan, const PipelineOptions& options,
+                                           std::size_t flat_tetrahedra) {
+  std::vector<WeakPlace> places = find_weak_places(surface, volume_mesh, scan, flat_tetrahedra);
   const bool is_told_only =
       !options.tetrahedralize && options.simplify && options.simplify->method == SimplifyMethod::collapse;
   if (!is_told_only) refuse_unusable(places);
@@ -298,9 +334,9 @@ std::vector<WeakPlace> checked_for_solvers(const SurfaceMesh& surface, const Tet
 }
 
 FilledSurface mesh_of_scan(const SurfaceMesh& scan, const std::optional<StairSteps>& stairs,
-                           const PipelineOptions& options, const Half* half, const Progress& progress,
-                           PipelineResult& result, StageLog& log) {
-  return MeshMaker(scan, stairs, options, half, result, log).run(progress);
+                           const PipelineOptions& options, const Half* half, const LayersOf& layers_of,
+                           const Progress& progress, PipelineResult& result, StageLog& log) {
+  return MeshMaker(scan, stairs, options, half, layers_of, result, log).run(progress);
 }
 
 }  // namespace scan2fea

@@ -4,6 +4,7 @@
 #include "preproc/surface/faces/carry_sets.hpp"
 #include "preproc/surface/kernel/nearest.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -32,6 +33,19 @@ std::vector<NamedSelection> with_given(std::vector<NamedSelection> selections, c
     added.name = added.selection.text = set.name;
   }
   return selections;
+}
+
+// The selected sets on a surface that was made of the scan, with these lines.
+std::vector<NamedSet> sets_on_surface(const SelectedScan& selected, const SurfaceMesh& surface,
+                                      const std::vector<FeatureEdge>& lines) {
+  const std::vector<std::uint32_t> label = carry_labels(selected.mesh, selected.of_triangle, surface, lines);
+  // One triangle of the scan for each label: in the same sets as all others.
+  std::vector<std::uint32_t> example;
+  for (std::uint32_t f = 0; f < selected.of_triangle.size(); ++f)
+    if (selected.of_triangle[f] == example.size()) example.push_back(f);
+  std::vector<std::uint32_t> origin;
+  for (const std::uint32_t l : label) origin.push_back(example[l]);
+  return carried_sets(selected.sets, origin);
 }
 
 // Of all faces but a single one. They add no lines: creases are lines of the mesh already, and where two faces join
@@ -77,16 +91,7 @@ SelectedScan select_parts(const SurfaceMesh& whole, const SurfaceMesh& given_sca
 
 void carry_parts(const SelectedScan& selected, const PipelineOptions& options, const SimplifyResult& simplified,
                  PipelineResult& result) {
-  const SurfaceMesh& surface = result.surface;
-  const std::vector<std::uint32_t> label =
-      carry_labels(selected.mesh, selected.of_triangle, surface, simplified.line_edges);
-  // One triangle of the scan for each label: in the same sets as all others.
-  std::vector<std::uint32_t> example;
-  for (std::uint32_t f = 0; f < selected.of_triangle.size(); ++f)
-    if (selected.of_triangle[f] == example.size()) example.push_back(f);
-  std::vector<std::uint32_t> origin;
-  for (const std::uint32_t l : label) origin.push_back(example[l]);
-  std::vector<NamedSet> carried = carried_sets(selected.sets, origin);
+  std::vector<NamedSet> carried = sets_on_surface(selected, result.surface, simplified.line_edges);
   for (std::size_t s = 0; s < carried.size(); ++s) {
     NamedSet& set = carried[s];
     if (set.members.empty() && s >= options.sets.size()) continue;
@@ -100,6 +105,41 @@ void carry_parts(const SelectedScan& selected, const PipelineOptions& options, c
   }
   if (options.name_faces) name_faces(selected, simplified, result);
   result.faces = selected.faces;
+}
+
+void require_sets_of_layers(const SelectedScan* selected, const std::vector<LayerOptions>& layers) {
+  for (const LayerOptions& asked : layers) {
+    if (asked.set.empty() || (selected != nullptr && find_set(selected->sets, asked.set) < selected->sets.size()))
+      continue;
+    std::string known;
+    for (std::size_t s = 0; selected != nullptr && s < selected->sets.size(); ++s)
+      known += (s > 0 ? ", " : "") + selected->sets[s].name;
+    throw WrongUsage({.what = "layers behind a set that there is not",
+                      .where = {},
+                      .value = asked.set,
+                      .limit = known.empty() ? "no set" : known,
+                      .advice = "--set '" + asked.set + "=EXPRESSION'"});
+  }
+}
+
+LayeredTriangles layered_triangles(const SelectedScan* selected, const std::vector<LayerOptions>& layers,
+                                   const SurfaceMesh& surface, const std::vector<FeatureEdge>& lines) {
+  LayeredTriangles result{{}, std::vector<std::uint32_t>(surface.triangles.size(), no_layers)};
+  std::vector<NamedSet> sets;
+  if (selected != nullptr) sets = sets_on_surface(*selected, surface, lines);
+  for (const LayerOptions& asked : layers) {
+    const auto same = std::ranges::find(result.heights, asked.heights);
+    const auto number = static_cast<std::uint32_t>(same - result.heights.begin());
+    if (same == result.heights.end()) result.heights.push_back(asked.heights);
+    const auto take = [&](std::uint32_t f) {
+      if (result.of_triangle[f] == no_layers) result.of_triangle[f] = number;
+    };
+    if (asked.set.empty())
+      for (std::uint32_t f = 0; f < result.of_triangle.size(); ++f) take(f);
+    else
+      std::ranges::for_each(sets[find_set(sets, asked.set)].members, take);
+  }
+  return result;
 }
 
 void add_set(NamedSet set, std::optional<double> area_of_scan, PipelineResult& result) {

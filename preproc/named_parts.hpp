@@ -21,6 +21,14 @@ SelectedScan select_parts(const SurfaceMesh& whole, const SurfaceMesh& given, co
 void carry_parts(const SelectedScan& selected, const PipelineOptions& options, const SimplifyResult& simplified,
                  PipelineResult& result);
 
+// Which triangles of a surface that was made of the selected scan are to have layers. A triangle of several sets has
+// the layers that are asked for first. Precondition: the sets are there.
+LayeredTriangles layered_triangles(const SelectedScan* selected, const std::vector<LayerOptions>& layers,
+                                   const SurfaceMesh& surface, const std::vector<FeatureEdge>& lines);
+
+// Throws WrongUsage where layers are asked for of a set that there is not.
+void require_sets_of_layers(const SelectedScan* selected, const std::vector<LayerOptions>& layers);
+
 // Puts a set of the result's triangles behind those that it has, with its figures. `area_of_scan`: where not given,
 // that of the set.
 void add_set(NamedSet set, std::optional<double> area_of_scan, PipelineResult& result);

@@ -42,6 +42,18 @@ void require_slidable(const PipelineOptions& options) {
                     .advice = options.symmetry ? "--symmetry off, or no --slide" : "--order 1, or no --slide"});
 }
 
+// Nodes that slide would leave their layers.
+void require_layerable(const PipelineOptions& options) {
+  const auto refuse = [](const char* value, const char* advice) {
+    throw WrongUsage(
+        {.what = "layers are made of whole parts only", .where = {}, .value = value, .limit = {}, .advice = advice});
+  };
+  if (options.layers.empty()) return;
+  if (options.symmetry) refuse("--layers with --symmetry", "--symmetry off, or no --layers");
+  if (options.slide) refuse("--layers with --slide", "one of both");
+  if (!options.simplify || !options.tetrahedralize) refuse("--layers without a mesh of a scan", "scan2fea run");
+}
+
 // Sets of what was made up, after the user's own.
 void add_made_up_sets(const SurfaceMesh& start, const std::vector<FaceOrigin>& of_start, PipelineResult& result) {
   if (of_start.empty()) return;
@@ -53,6 +65,7 @@ void add_made_up_sets(const SurfaceMesh& start, const std::vector<FaceOrigin>& o
 void run_stages(SurfaceMesh scan, const SurfaceMesh* seen, const PipelineOptions& options, const Progress& progress,
                 StageLog& log, PipelineResult& result) {
   require_slidable(options);
+  require_layerable(options);
   const auto stairs = options.simplify ? find_stair_steps(scan) : std::nullopt;
   if (options.repair)
     log.run("repair", [&](StageRecord& record) {
@@ -92,11 +105,18 @@ void run_stages(SurfaceMesh scan, const SurfaceMesh* seen, const PipelineOptions
                               chain.simplify, record);
     });
   const SurfaceMesh& start = selected ? selected->mesh : options.enrich ? enriched : result.scan;
+  const SelectedScan* const of_sets = selected ? &*selected : nullptr;
+  require_sets_of_layers(of_sets, options.layers);
+  LayersOf layers_of;
+  if (!options.layers.empty())
+    layers_of = [&](const SurfaceMesh& surface, const std::vector<FeatureEdge>& lines) {
+      return layered_triangles(of_sets, options.layers, surface, lines);
+    };
   FilledSurface made = options.symmetry ? mesh_by_half(start, stairs, chain, progress, result, log)
-                                        : mesh_of_scan(start, stairs, chain, nullptr, progress, result, log);
+                                        : mesh_of_scan(start, stairs, chain, nullptr, layers_of, progress, result, log);
   if (options.simplify || options.tetrahedralize)
     result.weak_places = checked_for_solvers(made.surface, options.tetrahedralize ? &made.filled.mesh : nullptr,
-                                             result.reference(), options);
+                                             result.reference(), options, made.flat_tetrahedra);
   result.surface = std::move(made.surface);
   result.features = std::move(made.simplified.features);
   result.line_edges = made.simplified.line_edges;

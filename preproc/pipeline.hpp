@@ -2,6 +2,7 @@
 // order.
 #pragma once
 
+#include "preproc/layers/layer_heights.hpp"
 #include "preproc/mesh/point_cloud.hpp"
 #include "preproc/mesh/progress.hpp"
 #include "preproc/mesh/surface_mesh.hpp"
@@ -37,6 +38,13 @@ struct SlideOptions {
   LargestDeviation::Unit unit = LargestDeviation::Unit::model;
 };
 
+// Layers of elements behind the triangles of a set, or of all of the surface; see add_layers.hpp. Of whole parts,
+// without `slide`: else WrongUsage.
+struct LayerOptions {
+  std::string set = {};  // one of those that are asked for, or given; empty: all of the surface
+  LayerHeights heights;
+};
+
 // A stage that is not asked for is left out; its input then goes on as it is.
 struct PipelineOptions {
   ReconstructOptions reconstruct;  // of a cloud
@@ -47,6 +55,7 @@ struct PipelineOptions {
   std::optional<SimplifyOptions> simplify = SimplifyOptions{};
   std::optional<TetrahedralizeOptions> tetrahedralize = TetrahedralizeOptions{};
   std::optional<SlideOptions> slide = {};
+  std::vector<LayerOptions> layers = {};
   int order = 1;  // 1: 4-node tetrahedra, 2: 10-node tetrahedra
   // Parts of the surface that get a name; their borders become lines of the mesh.
   std::vector<NamedSelection> sets = {};

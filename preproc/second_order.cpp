@@ -65,4 +65,50 @@ SecondOrderResult make_second_order(const Simplification& search, const Tetrahed
   return result;
 }
 
+namespace {
+
+// What easing has taken of the volume, the other nodes of edges take up, along the directions that their edge of the
+// fitted surface has.
+void keep_volume(const FittedCurves& fitted, const std::vector<FeatureEdge>& of_surface, const EdgePlaces& wanted,
+                 const EdgePlaces& placed, FilledSurface& made) {
+  CurvedSurface surface(made.surface);
+  std::vector<Vec3> directions(surface.nodes(), Vec3::Zero());
+  const std::size_t corners = surface.corners.vertices.size(), fitted_corners = fitted.surface.corners.vertices.size();
+  for (std::size_t i = 0; i < placed.edges.size(); ++i) {
+    const auto at = std::ranges::lower_bound(surface.edges, placed.edges[i]);
+    if (at == surface.edges.end() || *at != placed.edges[i]) continue;
+    const auto e = static_cast<std::size_t>(at - surface.edges.begin());
+    surface.mid[e] = placed.places[i];
+    if (placed.places[i] != wanted.places[i]) continue;
+    directions[corners + e] = fitted.directions[fitted_corners + fitted.surface.edge(of_surface[i])];
+  }
+  keep_curved_volume(surface, fitted.volumes, std::move(directions));
+  place_mid_edge_nodes(made.filled.mesh, {surface.edges, surface.mid});
+}
+
+}  // namespace
+
+SecondOrderResult curve_layers(const FittedCurves& fitted, const std::vector<ParallelEdge>& parallel,
+                               FilledSurface& made, const Progress& progress) {
+  TetMesh& mesh = made.filled.mesh;
+  EdgePlaces to;
+  std::vector<FeatureEdge> of_surface;  // of each place
+  for (const auto& [edge, parent] : parallel) {
+    if (!to.edges.empty() && to.edges.back() == edge) continue;
+    const std::size_t e = fitted.surface.edge(parent);
+    of_surface.push_back(parent);
+    to.edges.push_back(edge);
+    to.places.emplace_back((mesh.nodes[edge[0]] + mesh.nodes[edge[1]]) / 2 + fitted.surface.mid[e] -
+                           fitted.surface.middle(e));
+  }
+  add_mid_edge_nodes(mesh);
+  SecondOrderResult result;
+  result.straight_triangles = fitted.straight;
+  const EdgePlaces wanted = to;
+  result.curved = curve_mid_edge_nodes(mesh, to, progress, made.flat_tetrahedra);
+  keep_volume(fitted, of_surface, wanted, to, made);
+  result.curved.volume = total_volume(mesh);
+  return result;
+}
+
 }  // namespace scan2fea

@@ -1,7 +1,9 @@
 // From a filled surface of straight triangles to second-order tetrahedra with curved sides.
 #pragma once
 
+#include "preproc/layers/join_layers.hpp"
 #include "preproc/mesh/progress.hpp"
+#include "preproc/surface/curved/fit_curves.hpp"
 #include "preproc/tetrahedra_search.hpp"
 #include "preproc/volume/mid_edge_nodes.hpp"
 
@@ -22,5 +24,10 @@ struct SecondOrderResult {
 // `made` is as it was.
 SecondOrderResult make_second_order(const Simplification& search, const TetrahedralizeOptions& tetrahedralization,
                                     FilledSurface& made, const Progress& progress = {});
+
+// The same where `made` has layers behind the corners of `fitted`: nodes of edges are as far from their middles as
+// those of the surface's edges that they are parallel to.
+SecondOrderResult curve_layers(const FittedCurves& fitted, const std::vector<ParallelEdge>& parallel,
+                               FilledSurface& made, const Progress& progress = {});
 
 }  // namespace scan2fea

@@ -216,6 +216,31 @@ void describe(const SlideResult& slid, const InScan& in_scan, StageRecord& recor
     record.remarks.emplace_back("nothing was moved: no place along the scan is better, or none within the deviation");
 }
 
+void describe(const LayersResult& layers, const InScan& in_scan, StageRecord& record) {
+  record.changes = {{"tetrahedra", static_cast<double>(layers.all_tetrahedra)},
+                    {"nodes", static_cast<double>(layers.nodes)},
+                    {"layer_tetrahedra", static_cast<double>(layers.tetrahedra)},
+                    {"layered_triangles", static_cast<double>(layers.triangles)},
+                    {"layered_vertices", static_cast<double>(layers.vertices)},
+                    {"lower_vertices", static_cast<double>(layers.lower_vertices)},
+                    {"tapered_vertices", static_cast<double>(layers.tapered_vertices)},
+                    {"least_share_of_height", layers.least_share},
+                    {"largest_move", in_scan.unit() * layers.largest_move}};
+  if (layers.lower_vertices > 0)
+    record.warnings.push_back("layers are lower than asked for at " + std::to_string(layers.lower_vertices) + " of " +
+                              std::to_string(layers.vertices) + " vertices, for want of room: down to " +
+                              error_text(100 * layers.least_share, 3) + " % of the height at " +
+                              error_text(in_scan.place(layers.least_at)));
+  if (layers.lost_deviation > 0)
+    record.warnings.push_back(
+        "to make room for the layers vertices beside them moved along the scan: the surface is " +
+        error_text(in_scan.unit() * layers.lost_deviation, 4) +
+        " from it, more than was asked for; lower layers or smaller triangles keep the deviation");
+  if (layers.tapered_vertices > 0)
+    record.remarks.push_back("layers taper off at " + std::to_string(layers.tapered_vertices) +
+                             " vertices, where no edge of the part ends them");
+}
+
 void describe(const SecondOrderResult& result, const InScan& in_scan, StageRecord& record) {
   const CurveResult& curved = result.curved;
   const double unit = in_scan.unit();

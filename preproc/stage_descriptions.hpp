@@ -1,6 +1,7 @@
 // What a stage tells of its result: figures, which gates can name, and remarks for people.
 #pragma once
 
+#include "preproc/add_layers.hpp"
 #include "preproc/pipeline.hpp"
 #include "preproc/second_order.hpp"
 #include "preproc/slide_boundary.hpp"
@@ -37,6 +38,7 @@ void describe(const SimplifyResult& result, const InScan& in_scan, StageRecord& 
 void describe(const TetrahedralizeResult& result, const InScan& in_scan, StageRecord& record);
 void describe(const RenewalResult& renewal, const InScan& in_scan, StageRecord& record);
 void describe(const SlideResult& slid, const InScan& in_scan, StageRecord& record);
+void describe(const LayersResult& layers, const InScan& in_scan, StageRecord& record);
 void describe(const SecondOrderResult& result, const InScan& in_scan, StageRecord& record);
 
 }  // namespace scan2fea

@@ -13,6 +13,7 @@ struct FilledSurface {
   SurfaceMesh surface;
   SimplifyResult simplified;
   TetrahedralizeResult filled;
+  std::size_t flat_tetrahedra = 0;  // the first of its mesh, which are flat as they are to be: layers
 };
 
 // Whether elements came out with a dihedral angle below 28 degrees or 0.9 of what the surface allows (but at least 20),

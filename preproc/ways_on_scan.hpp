@@ -6,7 +6,6 @@
 #include "preproc/surface/fit/reference_surface.hpp"
 #include "preproc/volume/boundary_ways.hpp"
 
-
 namespace scan2fea {
 
 // Each vertex stays as far from the scan as it is: within its patch, on its line of the net where it is on one, and in

@@ -15,10 +15,7 @@
 namespace scan2fea {
 namespace {
 
-// CalculiX and Abaqus warn of angles in this region and of such ratios; below the last, an element's stiffness is lost
-// in the rounding of the others'.
-constexpr double small_angle_deg = 5, unusable_angle_deg = 0.5;
-constexpr double large_edge_ratio = 10;
+constexpr double large_edge_ratio = 10;  // and of such ratios
 // The scan is "about as sharp" up to so many times the angle that an unusable one has.
 constexpr double as_sharp = 2;
 constexpr double sharp_edge_deg = 30;  // edges that bound a corner of the part
@@ -51,10 +48,11 @@ Worst worst_of(const SurfaceMesh& mesh) {
   return worst;
 }
 
-Worst worst_of(const TetMesh& mesh) {
+Worst worst_of(const TetMesh& mesh, std::size_t flat_tetrahedra) {
   Worst worst;
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
     const TetShape shape = measure_tetrahedron(mesh, t);
+    if (t < flat_tetrahedra && shape.min_dihedral_deg >= unusable_angle_deg) continue;
     worst.meet(t, shape.min_dihedral_deg, shape.edge_ratio.value_or(std::numeric_limits<double>::max()));
   }
   return worst;
@@ -105,9 +103,9 @@ std::string WeakPlace::describe() const {
   return text;
 }
 
-std::vector<WeakPlace> find_weak_places(const SurfaceMesh& surface, const TetMesh* volume_mesh,
-                                        const SurfaceMesh& scan) {
-  const Worst worst = volume_mesh != nullptr ? worst_of(*volume_mesh) : worst_of(surface);
+std::vector<WeakPlace> find_weak_places(const SurfaceMesh& surface, const TetMesh* volume_mesh, const SurfaceMesh& scan,
+                                        std::size_t flat_tetrahedra) {
+  const Worst worst = volume_mesh != nullptr ? worst_of(*volume_mesh, flat_tetrahedra) : worst_of(surface);
   const auto ball = [&](std::size_t cell) {
     return volume_mesh != nullptr ? ball_of(volume_mesh->nodes, volume_mesh->tetrahedra[cell])
                                   : ball_of(surface.vertices, surface.triangles[cell]);

@@ -9,6 +9,10 @@
 
 namespace scan2fea {
 
+// Degrees. CalculiX and Abaqus warn of angles around the first; below the second, an element's stiffness is lost in the
+// rounding of the others'.
+inline constexpr double small_angle_deg = 5, unusable_angle_deg = 0.5;
+
 struct WeakPlace {
   std::string what;  // "smallest dihedral angle"
   double value;      // degrees, or a ratio
@@ -24,8 +28,9 @@ struct WeakPlace {
 // where it is below 5 degrees, and the largest edge ratio where it is above 10. Below half a degree it is unusable,
 // unless the scan itself is about as sharp within the element's size of there: at an edge between two of its faces, or
 // in a corner between two of its sharp edges. Empty for a sound mesh. O(n).
-std::vector<WeakPlace> find_weak_places(const SurfaceMesh& surface, const TetMesh* volume_mesh,
-                                        const SurfaceMesh& scan);
+// The first `flat_tetrahedra` are meant to be flat: they are weak only where they are unusable.
+std::vector<WeakPlace> find_weak_places(const SurfaceMesh& surface, const TetMesh* volume_mesh, const SurfaceMesh& scan,
+                                        std::size_t flat_tetrahedra = 0);
 
 // Throws NotMeshable for the first that is unusable.
 void refuse_unusable(const std::vector<WeakPlace>& places);

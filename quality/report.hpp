@@ -1,6 +1,6 @@
 // The figures of a mesh as one JSON object, the contract of `check --json`, and as a table for people.
 //
-// Schema "scan2fea/5", which report.schema.json tells in full:
+// Schema "scan2fea/6", which report.schema.json tells in full:
 //   schema, input,
 //   surface {vertices, faces, edge_ratio {mean, p50, p95, p99, max}, min_angle_deg {mean, min}, max_angle_deg,
 //            radius_ratio {mean, min}, degenerate, closed, manifold, oriented, self_intersections, unused_vertices,
@@ -41,7 +41,7 @@
 namespace scan2fea {
 
 // Rises with every change of the format; tests/check_report_format.py holds it against report.schema.json.
-inline constexpr const char* report_schema = "scan2fea/5";
+inline constexpr const char* report_schema = "scan2fea/6";
 
 using Json = nlohmann::ordered_json;  // keys stay in the order above
 

@@ -180,6 +180,32 @@ SurfaceMesh cylinder(double radius, double height, int around, int along) {
   return mesh;
 }
 
+SurfaceMesh pipe(double inner, double outer, double length, int around) {
+  const double side = 2 * std::numbers::pi * outer / around;
+  const int along = std::max(1, static_cast<int>(std::lround(length / side)));
+  const int across = std::max(1, static_cast<int>(std::lround((outer - inner) / side)));
+  // Rings up the outer wall, over the upper end, down the bore, and over the lower end: their radii and heights.
+  std::vector<std::array<double, 2>> rings;
+  for (int i = 0; i < along; ++i) rings.push_back({outer, length * i / along});
+  for (int i = 0; i < across; ++i) rings.push_back({outer + (inner - outer) * i / across, length});
+  for (int i = 0; i < along; ++i) rings.push_back({inner, length - length * i / along});
+  for (int i = 0; i < across; ++i) rings.push_back({inner + (outer - inner) * i / across, 0});
+  SurfaceMesh mesh;
+  const auto index = [&](std::size_t ring, int i) {
+    return static_cast<std::uint32_t>(ring % rings.size() * static_cast<std::size_t>(around) +
+                                      static_cast<std::size_t>(i % around));
+  };
+  for (std::size_t ring = 0; ring < rings.size(); ++ring)
+    for (int i = 0; i < around; ++i) {
+      const auto& [radius, height] = rings[ring];
+      const double angle = 2 * std::numbers::pi * i / around;
+      mesh.vertices.emplace_back(radius * std::cos(angle), radius * std::sin(angle), height);
+      mesh.triangles.push_back({index(ring, i), index(ring, i + 1), index(ring + 1, i + 1)});
+      mesh.triangles.push_back({index(ring, i), index(ring + 1, i + 1), index(ring + 1, i)});
+    }
+  return mesh;
+}
+
 SurfaceMesh lens(double rim_angle_deg, int around, int rings) {
   const double half = rim_angle_deg / 2 * std::numbers::pi / 180;
   const double radius = 1 / std::sin(half), centre = 1 / std::tan(half);

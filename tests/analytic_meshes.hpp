@@ -30,6 +30,9 @@ SurfaceMesh torus(double major_radius, double minor_radius, int around, int acro
 // height is split into `along` rings.
 SurfaceMesh cylinder(double radius, double height, int around, int along);
 
+// A pipe about z with plane ends, from z = 0 on, of `around` quads around, and squares of about the same size.
+SurfaceMesh pipe(double inner, double outer, double length, int around);
+
 // What two equal balls share: caps that meet in a circular rim of radius 1, at an interior angle of `rim_angle_deg`;
 // each cap of `rings` rings of `around` vertices.
 SurfaceMesh lens(double rim_angle_deg, int around, int rings);

@@ -29,6 +29,7 @@ formats = {
     "scan2fea/3": "756478214f0dbe022e285fa58727734eb02dafec2929f611e401f663247c956e",
     "scan2fea/4": "8fb091ccfef85fa6e28e93c92b0f85b6830110809d0481c04cb117d31a8382b3",
     "scan2fea/5": "e4e795b5f99844239c092aa2ffd48267e410a7324b8d8e640253927fdccf1809",
+    "scan2fea/6": "1e2964b654201bf3bcd82b96b1bee8e0dd3c561ce6b936f56b61968558074797",
 }
 
 
@@ -55,6 +56,7 @@ def figures_of_commands(command, scan):
     with tempfile.TemporaryDirectory() as folder:
         part, surface = os.path.join(folder, "part.inp"), os.path.join(folder, "part.stl")
         for arguments in (["run", scan, "-o", part, "--faces", "2000", "--unit", "mm", "--set", "foot=z<3mm", "--slide", "0.1%"],
+                          ["run", scan, "-o", os.path.join(folder, "c.vtu"), "--faces", "2000", "--layers", "2:0.3:1.2"],
                           ["surface", scan, "-o", surface, "--faces", "2000", "--enrich"],
                           ["repair", scan, "-o", os.path.join(folder, "repaired.ply")],
                           ["run", scan, "-o", os.path.join(folder, "b.vtu"), "--faces", "1500", "--order", "2"],

@@ -73,6 +73,7 @@ std::vector<ExpectedStage> expected_stages(const MakeMeshJob& job, const Expecte
   if (!work.triangles) add_surface_stages(job, work, triangles, stages);
   if (job.pipeline.tetrahedralize) stages.push_back({"tetrahedralize", fill_tetrahedron * tetrahedra});
   if (job.pipeline.slide) stages.push_back({"slide", fill_tetrahedron * tetrahedra});
+  if (!job.pipeline.layers.empty()) stages.push_back({"layers", fill_tetrahedron * tetrahedra});
   if (job.pipeline.tetrahedralize && job.pipeline.order == 2)
     stages.push_back({"second order", curve_tetrahedron * tetrahedra});
   stages.push_back({"write", write_tetrahedron * tetrahedra});

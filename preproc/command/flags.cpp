@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <utility>
 
 namespace scan2fea::command {
@@ -18,6 +19,33 @@ namespace {
 void require_length(const char* flag, double length) {
   if (!std::isfinite(length) || length <= 0)
     throw CLI::ValidationError(flag, "'" + error_text(length) + "' is no length above 0");
+}
+
+// "wall=5:0.1:1.3": the set's name may hold what a name may, so that the last = counts.
+LayerOptions parse_layers(const std::string& flag, const std::string& text) {
+  constexpr double most_layers = 50, most_growth = 3;
+  LayerOptions layers;
+  const std::size_t equal = text.rfind('=');
+  if (equal != std::string::npos) layers.set = text.substr(0, equal);
+  std::vector<std::optional<double>> numbers;
+  std::istringstream parts(equal == std::string::npos ? text : text.substr(equal + 1));
+  for (std::string part; std::getline(parts, part, ':');) numbers.push_back(number_in(part));
+  const bool are_there =
+      numbers.size() == 3 && std::ranges::all_of(numbers, [](const auto& n) { return n.has_value(); });
+  if (!are_there || equal == 0)
+    throw CLI::ValidationError(flag, "'" + text + "' is not SET=N:FIRST:GROWTH or N:FIRST:GROWTH; try: wall=5:0.1:1.3");
+  const double count = *numbers[0], first = *numbers[1], growth = *numbers[2];
+  if (count < 1 || count > most_layers || count != std::floor(count))
+    throw CLI::ValidationError(
+        flag, "'" + text + "' asks for " + error_text(count) + " layers (limit: a whole number from 1 to 50); try: 5");
+  if (first <= 0)
+    throw CLI::ValidationError(
+        flag, "'" + text + "': a first layer of " + error_text(first) + " (limit: a height above 0, model units)");
+  if (growth < 1 || growth > most_growth)
+    throw CLI::ValidationError(flag,
+                               "'" + text + "': a growth of " + error_text(growth) + " (limit: 1 to 3); try: 1.3");
+  layers.heights = {.count = static_cast<int>(count), .first = first, .growth = growth};
+  return layers;
 }
 
 // From half of the diagonal on one point in the middle is near enough to all others.
@@ -330,6 +358,21 @@ void add_slide_flag(CLI::App& command, std::optional<SlideOptions>& slide) {
           },
           "Nodes of the surface go along the scan, this far at the most, where that makes better tetrahedra")
       ->type_name("D|P%");
+}
+
+void add_layers_flag(CLI::App& command, std::vector<LayerOptions>& layers) {
+  const OptionGroup group(command, "Tetrahedra");
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--layers",
+          [&layers](const std::vector<std::string>& texts) {
+            layers.clear();
+            for (const std::string& text : texts) layers.push_back(parse_layers("--layers", text));
+          },
+          "Layers of flat elements behind a set, or behind all of the surface: their number, the height of the first, "
+          "model units, and how many times as high each next one is")
+      ->type_name("[SET=]N:FIRST:GROWTH")
+      ->allow_extra_args(false);
 }
 
 void add_contact_flag(CLI::App& command, std::optional<double>& tolerance) {

@@ -73,6 +73,7 @@ void add_feature_angle_flag(CLI::App& command, FeatureOptions& features);
 void add_set_flag(CLI::App& command, std::vector<std::string>& sets);
 void add_face_flags(CLI::App& command, bool& name_faces, std::optional<Idealise>& idealise);
 void add_slide_flag(CLI::App& command, std::optional<SlideOptions>& slide);
+void add_layers_flag(CLI::App& command, std::vector<LayerOptions>& layers);
 void add_symmetry_flag(CLI::App& command, std::optional<SymmetryOptions>& symmetry);
 void add_feature_file_flags(CLI::App& command, FeatureFileFlags& flags);  // after add_simplify_flags
 // For the stages that `options` has by then.

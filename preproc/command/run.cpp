@@ -29,6 +29,7 @@ SubCommand add_run(CLI::App& root) {
       "What becomes of holes: close; with keep no volume fits in (scan2fea surface)");
   add_tetrahedralize_flags(*app, *job->pipeline.tetrahedralize, job->pipeline.order);
   add_slide_flag(*app, job->pipeline.slide);
+  add_layers_flag(*app, job->pipeline.layers);
   add_deck_flag(*app, job->deck);
   add_parts_flag(*app, job->parts);
   add_msh_version_flag(*app, job->msh_version);

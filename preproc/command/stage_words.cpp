@@ -24,6 +24,7 @@ constexpr std::array stages{Words{"read", "reading"},
                             Words{"tetrahedralize", "filling with tetrahedra"},
                             Words{"renewal", "improving poor tetrahedra"},
                             Words{"slide", "sliding the surface's nodes"},
+                            Words{"layers", "adding layers"},
                             Words{"second order", "curving sides"},
                             Words{"measure", "measuring"},
                             Words{"report", "drawing the report"},
@@ -94,6 +95,9 @@ std::string summary(const StageRecord& stage) {
   if (stage.name == "tetrahedralize" && figure(stage, "nodes")) return told_tetrahedra(stage);
   if (stage.name == "second order" && figure(stage, "nodes"))
     return told_tetrahedra(stage) + ", scaled Jacobian at least " + number(*figure(stage, "least_scaled_jacobian"));
+  if (stage.name == "layers" && figure(stage, "nodes"))
+    return count(*figure(stage, "layer_tetrahedra")) + " tetrahedra behind " +
+           count(*figure(stage, "layered_triangles")) + " triangles; " + told_tetrahedra(stage) + " in all";
   if (stage.name == "slide" && stage.remarks.empty())
     return count(*figure(stage, "vertices_moved")) + " nodes moved by at most " +
            number(*figure(stage, "largest_move")) + "; dihedral angles " +

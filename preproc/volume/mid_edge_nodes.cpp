@@ -89,9 +89,32 @@ EdgePlaces nearest_on_scan(const TetMesh& mesh, const TriangleTree& scan) {
 
 namespace {
 
+// Whether an element is too poor to be curved as it is; see curve_mid_edge_nodes.
+class PoorlyCurved {
+ public:
+  PoorlyCurved(const TetMesh& mesh, const std::vector<Vec3>& straight, std::size_t flat_tetrahedra)
+      : mesh_(mesh), straight_(straight), flat_(flat_tetrahedra) {}
+
+  bool operator()(std::uint32_t t) const {
+    constexpr double of_straight = 0.5;
+    if (t >= flat_) return curved_quality(mesh_, t) < 1;
+    const CurvedTetrahedron curved = curved_tetrahedron(mesh_, t);
+    CurvedTetrahedron straight;
+    for (std::size_t k = 0; k < 4; ++k) straight[k] = straight_[mesh_.tetrahedra[t][k]];
+    for (std::size_t k = 0; k < 6; ++k) straight[4 + k] = straight_[mesh_.mid_edge_nodes[t][k]];
+    return curved_scaled_jacobian(curved) < of_straight * curved_scaled_jacobian(straight);
+  }
+
+ private:
+  const TetMesh& mesh_;
+  const std::vector<Vec3>& straight_;
+  std::size_t flat_;
+};
+
 // Nodes of poor elements are eased all at once, so that the outcome does not depend on an order. An eased node may make
 // a neighbour poor whose other nodes stay, so until none is: straight elements are good. Returns how often each was.
-std::vector<int> ease(TetMesh& mesh, const std::vector<Vec3>& straight, std::vector<std::uint32_t> suspects) {
+std::vector<int> ease(TetMesh& mesh, const std::vector<Vec3>& straight, const PoorlyCurved& is_poor,
+                      std::vector<std::uint32_t> suspects) {
   std::vector<int> easings(mesh.nodes.size(), 0);
   const auto may_ease = [&](std::uint32_t v) { return easings[v] < most_easings && mesh.nodes[v] != straight[v]; };
   std::vector<std::vector<std::uint32_t>> around(mesh.nodes.size());
@@ -100,8 +123,7 @@ std::vector<int> ease(TetMesh& mesh, const std::vector<Vec3>& straight, std::vec
   while (!suspects.empty()) {
     std::vector<std::uint32_t> eased;
     for (const std::uint32_t t : suspects)
-      if (curved_quality(mesh, t) < 1)
-        std::ranges::copy_if(mesh.mid_edge_nodes[t], std::back_inserter(eased), may_ease);
+      if (is_poor(t)) std::ranges::copy_if(mesh.mid_edge_nodes[t], std::back_inserter(eased), may_ease);
     sort_and_unique(eased);
     suspects.clear();
     for (const std::uint32_t v : eased) {
@@ -117,27 +139,40 @@ std::vector<int> ease(TetMesh& mesh, const std::vector<Vec3>& straight, std::vec
 }  // namespace
 
 std::vector<std::uint32_t> place_mid_edge_nodes(TetMesh& mesh, const EdgePlaces& to) {
-  std::vector<std::uint32_t> node_of_place(to.places.size());
-  for (const BoundaryEdge& edge : boundary_edges(mesh)) {
-    const auto at = std::lower_bound(to.edges.begin(), to.edges.end(), edge.ends);
-    if (at == to.edges.end() || *at != edge.ends) continue;
+  constexpr std::uint32_t none = ~0U;
+  std::vector<std::uint32_t> node_of_place(to.places.size(), none);
+  std::size_t placed = 0;
+  const auto place = [&](std::array<std::uint32_t, 2> ends, std::uint32_t node) {
+    const auto at = std::lower_bound(to.edges.begin(), to.edges.end(), ends);
+    if (at == to.edges.end() || *at != ends) return;
     const auto e = static_cast<std::size_t>(at - to.edges.begin());
-    node_of_place[e] = edge.node;
-    mesh.nodes[edge.node] = to.places[e];
-  }
+    placed += node_of_place[e] == none ? 1 : 0;
+    node_of_place[e] = node;
+    mesh.nodes[node] = to.places[e];
+  };
+  for (const BoundaryEdge& edge : boundary_edges(mesh)) place(edge.ends, edge.node);
+  for (std::size_t t = 0; t < mesh.tetrahedra.size() && placed < to.places.size(); ++t)  // those inside
+    for (std::size_t e = 0; e < 6; ++e) {
+      const auto [i, j] = tetrahedron_edges[e];
+      const auto [low, high] =
+          std::minmax(mesh.tetrahedra[t][static_cast<std::size_t>(i)], mesh.tetrahedra[t][static_cast<std::size_t>(j)]);
+      place({low, high}, mesh.mid_edge_nodes[t][e]);
+    }
   return node_of_place;
 }
 
-CurveResult curve_mid_edge_nodes(TetMesh& mesh, EdgePlaces& to, const Progress& progress) {
+CurveResult curve_mid_edge_nodes(TetMesh& mesh, EdgePlaces& to, const Progress& progress, std::size_t flat_tetrahedra) {
   const std::vector<Vec3> straight = mesh.nodes;
   const std::vector<std::uint32_t> node_of_place = place_mid_edge_nodes(mesh, to);
   std::vector<bool> held(mesh.nodes.size(), false);
   for (const std::uint32_t v : node_of_place) held[v] = true;
+  const PoorlyCurved is_poor(mesh, straight, flat_tetrahedra);
   std::vector<std::uint32_t> poor;
   for (std::uint32_t t = 0; t < mesh.tetrahedra.size(); ++t)
-    if (std::ranges::any_of(mesh.mid_edge_nodes[t], [&](std::uint32_t v) { return held[v]; }) &&
-        curved_quality(mesh, t) < 1)
+    if (std::ranges::any_of(mesh.mid_edge_nodes[t], [&](std::uint32_t v) { return held[v]; }) && is_poor(t))
       poor.push_back(t);
+  const bool has_poor = !poor.empty();
+  std::erase_if(poor, [&](std::uint32_t t) { return t < flat_tetrahedra; });
   // Where many are poor, the surface is too coarse for its bends, and easing alone does as well.
   constexpr double many_poor = 0.1;
   if (!poor.empty() && static_cast<double>(poor.size()) <= many_poor * static_cast<double>(mesh.tetrahedra.size()))
@@ -147,7 +182,7 @@ CurveResult curve_mid_edge_nodes(TetMesh& mesh, EdgePlaces& to, const Progress& 
     if (std::ranges::any_of(mesh.mid_edge_nodes[t], [&](auto v) { return mesh.nodes[v] != straight[v]; }))
       moved_elements.push_back(t);
   const std::vector<int> easings =
-      poor.empty() ? std::vector<int>(mesh.nodes.size(), 0) : ease(mesh, straight, moved_elements);
+      has_poor ? ease(mesh, straight, is_poor, moved_elements) : std::vector<int>(mesh.nodes.size(), 0);
 
   CurveResult result;
   for (std::size_t e = 0; e < to.places.size(); ++e) {

@@ -61,3 +61,24 @@ def write_box(path, x, y, z):
             file.write("%g %g %g\n" % corner)
         for a, b, c, d in sides:
             file.write(f"3 {a} {b} {c}\n3 {a} {c} {d}\n")
+
+
+def write_pipe(path, inner, outer, length, around):
+    """About z from z = 0 on, with plane ends; of squares of about the same size."""
+    side = 2 * math.pi * outer / around
+    along, across = max(1, round(length / side)), max(1, round((outer - inner) / side))
+    rings = [(outer, length * i / along) for i in range(along)]
+    rings += [(outer + (inner - outer) * i / across, length) for i in range(across)]
+    rings += [(inner, length - length * i / along) for i in range(along)]
+    rings += [(inner + (outer - inner) * i / across, 0) for i in range(across)]
+    with open(path, "w") as file:
+        file.write(f"OFF\n{len(rings) * around} {2 * len(rings) * around} 0\n")
+        for radius, height in rings:
+            for i in range(around):
+                angle = 2 * math.pi * i / around
+                file.write(f"{radius * math.cos(angle):.17g} {radius * math.sin(angle):.17g} {height:.17g}\n")
+        for ring in range(len(rings)):
+            for i in range(around):
+                p, q = ring * around + i, ring * around + (i + 1) % around
+                s, t = (p + around) % (len(rings) * around), (q + around) % (len(rings) * around)
+                file.write(f"3 {p} {q} {t}\n3 {p} {t} {s}\n")

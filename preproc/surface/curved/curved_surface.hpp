@@ -5,6 +5,7 @@
 #include "preproc/mesh/surface_mesh.hpp"
 #include "preproc/surface/kernel/adjacency.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -31,6 +32,10 @@ struct CurvedSurface {
   }
   const Vec3& node(std::size_t i) const {
     return i < corners.vertices.size() ? corners.vertices[i] : mid[i - corners.vertices.size()];
+  }
+  // The number of an edge that there is.
+  std::size_t edge(const FeatureEdge& ends) const {
+    return static_cast<std::size_t>(std::ranges::lower_bound(edges, ends) - edges.begin());
   }
   // Half-way between the ends of an edge.
   Vec3 middle(std::size_t edge) const;
