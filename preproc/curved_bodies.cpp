@@ -104,7 +104,7 @@ CurvedBodies fit_bodies(const BodyComplex& made, const FittedCurves& outside, co
   const auto keep_volumes = [&](const std::vector<Vec3>& directions, CurvedSurface& shifted) {
     keep_volumes_of_bodies(made, directions, shifted);
   };
-  bodies.straight = settle(straight, keep_volumes, bodies.surface, bodies.directions);
+  bodies.straight = settle(straight, keep_volumes, nullptr, bodies.surface, bodies.directions);
   return bodies;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace scan2fea {
 namespace {
@@ -89,6 +90,13 @@ FlatPieces flat_pieces(const TetMesh& mesh, std::span<const BoundaryFace> faces,
   FlatPieces pieces;
   pieces.nodes = mesh.nodes;
   for (const BoundaryFace f : faces) add_pieces(pieces, curved_triangle(mesh, f), tolerance);
+  return pieces;
+}
+
+FlatPieces flat_pieces(std::vector<Vec3> nodes, std::span<const CurvedTriangle> triangles, double tolerance) {
+  FlatPieces pieces;
+  pieces.nodes = std::move(nodes);
+  for (const CurvedTriangle& triangle : triangles) add_pieces(pieces, triangle, tolerance);
   return pieces;
 }
 

@@ -46,6 +46,9 @@ FlatPieces flat_pieces(const TetMesh& mesh, double tolerance, FacesBetween betwe
 // The same of any faces of its elements, in this order.
 FlatPieces flat_pieces(const TetMesh& mesh, std::span<const BoundaryFace> faces, double tolerance);
 
+// The same of any curved triangles.
+FlatPieces flat_pieces(std::vector<Vec3> nodes, std::span<const CurvedTriangle> triangles, double tolerance);
+
 // What is near enough for figures of a deviation: a hundredth of the distance at which meshes are made by default, of
 // the diagonal of what they are compared with.
 inline constexpr double flat_enough_of_diagonal = 2e-5;

@@ -4,6 +4,7 @@
 #include "preproc/surface/simplification/simplify.hpp"
 #include "quality/self_intersections.hpp"
 #include "quality/triangle_measures.hpp"
+#include "quality/triangle_tree.hpp"
 #include "tests/analytic_meshes.hpp"
 
 #include <gtest/gtest.h>
@@ -131,6 +132,47 @@ TEST(FitCurves, NodesOfARimLieOnItsLine) {
     if (!std::all_of(x.begin(), x.begin() + 3, [](const Vec3& p) { return std::abs(p.z() - 2) < 1e-6; })) continue;
     for (const Vec3& p : x) EXPECT_NEAR(p.z(), 2, 1e-9);
   }
+}
+
+// Of a ball with a thin horn, whose triangles are far smaller than the ball's: a bound holds for the curved surface,
+// too, both ways.
+TEST(FitCurves, KeepsADeviationThatWasAskedFor) {
+  const double bound = 0.004;
+  SurfaceMesh scan = analytic::sphere(1, 6);
+  for (Vec3& p : scan.vertices) p.z() += p.z() > 0 ? 0.8 * std::exp(-60 * p.head<2>().squaredNorm()) : 0;
+  SimplifyOptions options;
+  options.size = LargestDeviation{.distance = bound};
+  Simplification simplification(scan, options);
+  SurfaceMesh straight;
+  const SimplifyResult result = simplification.run(straight);
+  ASSERT_TRUE(result.keeps_deviation());
+  const FittedCurves curves = simplification.curved(result, straight);
+  EXPECT_LT(curves.straight, curves.surface.corners.triangles.size() / 20);
+
+  const TriangleTree of_scan(scan);
+  SurfaceMesh pieces;
+  constexpr int cuts = 8;
+  for (std::size_t f = 0; f < curves.surface.corners.triangles.size(); ++f) {
+    const auto place = [&](int i, int j) {
+      const double b = static_cast<double>(i) / cuts, c = static_cast<double>(j) / cuts;
+      return point_on(curves.surface.triangle(f), {1 - b - c, b, c});
+    };
+    for (int i = 0; i <= cuts; ++i)
+      for (int j = 0; i + j <= cuts; ++j)
+        ASSERT_LE(std::sqrt(of_scan.closest(place(i, j)).squared_distance), bound) << f;
+    for (int i = 0; i < cuts; ++i)
+      for (int j = 0; i + j < cuts; ++j)
+        for (const bool turned : {false, true}) {
+          if (turned && i + j + 1 >= cuts) continue;
+          const auto first = static_cast<std::uint32_t>(pieces.vertices.size());
+          pieces.vertices.push_back(turned ? place(i + 1, j + 1) : place(i, j));
+          pieces.vertices.push_back(place(i + 1, j));
+          pieces.vertices.push_back(place(i, j + 1));
+          pieces.triangles.push_back({first, first + 1, first + 2});
+        }
+  }
+  const TriangleTree of_curves(pieces);
+  for (const Vec3& p : scan.vertices) ASSERT_LE(std::sqrt(of_curves.closest(p).squared_distance), 1.02 * bound);
 }
 
 TEST(FitCurves, NoTwoTrianglesMeetInAThinFold) {

@@ -1,6 +1,8 @@
 #include "preproc/surface/curved/curve_fitter.hpp"
 
+#include "preproc/mesh/numbers.hpp"
 #include "preproc/surface/kernel/nearest.hpp"
+#include "quality/triangle_measures.hpp"
 
 #include <Eigen/IterativeLinearSolvers>
 #include <tbb/blocked_range.h>
@@ -19,7 +21,7 @@ using Range = tbb::blocked_range<std::size_t>;
 constexpr std::size_t most_samples_a_face = 32;
 // Of the mean edge: so that each triangle gets ten samples where the scan's are larger.
 constexpr double longest_scan_edge = 1.0 / 4;
-// A sample farther from the triangles than this part of an edge stands for something else.
+// A sample farther from a triangle than this part of its edges stands for something else.
 constexpr double farthest_of_edge = 0.25;
 
 // The foot of the perpendicular on the curved triangle by Newton's method, from where the plane ones have it; or the
@@ -57,6 +59,11 @@ CurveFitter::CurveFitter(CurvedSurface& surface, CurvedSurface& cut, const std::
           sample_surface(scan, longest_scan_edge * mean_edge_, most_samples_a_face * surface.corners.triangles.size())),
       face_of_sample_(samples_.samples.size()),
       locations_(samples_.samples.size()) {
+  for (const Triangle& t : surface.corners.triangles)
+    edge_of_face_.push_back(equilateral_edge(area_vector(surface.corners, t).norm() / 2, 1));
+  edge_of_node_.assign(surface.nodes(), infinity);
+  for (std::size_t f = 0; f < edge_of_face_.size(); ++f)
+    for (const std::size_t i : surface.nodes_of(f)) edge_of_node_[i] = std::min(edge_of_node_[i], edge_of_face_[f]);
   follow_surface();
   start_locations(patch_of_face);
 }
@@ -92,7 +99,8 @@ void CurveFitter::locate_samples() {
   const WalkableMesh on{fine, adjacency.stars, adjacency.neighbours, normals};
   tbb::parallel_for(Range(0, locations_.size(), 512), [&](const Range& range) {
     for (std::size_t s = range.begin(); s < range.end(); ++s) {
-      const Location plane = locate(on, samples_.samples[s], face_of_sample_[s], farthest_of_edge * mean_edge_);
+      const double farthest = farthest_of_edge * edge_of_face_[face_of_sample_[s] / 4];
+      const Location plane = locate(on, samples_.samples[s], face_of_sample_[s], farthest);
       face_of_sample_[s] = plane.face;
       const std::uint32_t f = plane.face / 4;
       locations_[s] = {
@@ -112,7 +120,7 @@ CurveFitter::Equations CurveFitter::equations_of(std::size_t f, const std::vecto
   Equations sum;
   const SixNodeTriangle x = cut_.triangle(f);
   const std::array<std::size_t, 6> nodes = surface_.nodes_of(f);
-  const double farthest = farthest_of_edge * mean_edge_;
+  const double farthest = farthest_of_edge * edge_of_face_[f];
   for (std::uint32_t k = first_[f]; k < first_[f + 1]; ++k) {
     const Location& at = locations_[order_[k]];
     const Sample& sample = samples_.samples[order_[k]];
@@ -172,9 +180,10 @@ void CurveFitter::solve(const std::vector<Equations>& of_face, const std::vector
   solver.setTolerance(tolerance);
   solver.setMaxIterations(most_iterations);
   const Eigen::VectorXd moves = solver.compute(matrix).solve(right);
-  const double farthest = farthest_of_edge * mean_edge_;
-  for (std::size_t i = 0; i < surface_.nodes(); ++i)
+  for (std::size_t i = 0; i < surface_.nodes(); ++i) {
+    const double farthest = farthest_of_edge * edge_of_node_[i];
     surface_.node(i) += std::clamp(moves[static_cast<Eigen::Index>(i)], -farthest, farthest) * directions[i];
+  }
 }
 
 }  // namespace scan2fea

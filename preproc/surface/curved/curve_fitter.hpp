@@ -40,6 +40,8 @@ class CurveFitter {
   CurvedSurface& cut_;
   const ReferenceSurface& scan_;
   double mean_edge_;
+  std::vector<double> edge_of_face_;  // of an equilateral triangle of its area
+  std::vector<double> edge_of_node_;  // of its smallest face
   SurfaceSamples samples_;
   std::vector<std::uint32_t> face_of_sample_;  // of the four times finer surface
   std::vector<Location> locations_;            // on the curved faces

@@ -1,6 +1,7 @@
 #include "preproc/surface/curved/fit_curves.hpp"
 
 #include "preproc/surface/curved/curve_fitter.hpp"
+#include "preproc/surface/curved/faces_beyond.hpp"
 #include "preproc/surface/curved/keep_curved_volume.hpp"
 #include "preproc/surface/kernel/cut_surface.hpp"
 #include "quality/self_intersections.hpp"
@@ -9,6 +10,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numeric>
+#include <utility>
 
 namespace scan2fea {
 namespace {
@@ -70,6 +73,11 @@ void place_planes(const SurfaceMesh& straight, const FeatureNet& net, const Plan
   }
 }
 
+void sort_and_unique(std::vector<std::uint32_t>& values) {
+  std::ranges::sort(values);
+  values.erase(std::ranges::unique(values).begin(), values.end());
+}
+
 CurvedSurface cut_open(const SurfaceMesh& surface, const FeatureNet& net) {
   return CurvedSurface(cut_along(surface, edges_of(net)).mesh);
 }
@@ -101,51 +109,77 @@ void fit_nodes(CurvedSurface& surface, const std::vector<Vec3>& directions, cons
   limit_bends(surface);
 }
 
-// Faces that meet others, each taken as four plane ones, and those whose corners went where they make a needle that is
-// none in `straight`; sorted.
-std::vector<std::uint32_t> spoilt_faces(const CurvedSurface& surface, const SurfaceMesh& straight) {
-  std::vector<std::uint32_t> faces;
-  for (const FacePair& pair : find_self_intersections(in_four(surface)))
-    faces.insert(faces.end(), {pair.face / 4, pair.other / 4});
-  for (const FacePair& pair : find_self_intersections(surface.corners))
-    faces.insert(faces.end(), {pair.face, pair.other});
-  for (std::uint32_t f = 0; f < straight.triangles.size(); ++f)
+// Of `faces`, those that meet others, each taken as four plane ones, and those whose corners went where they make a
+// needle that is none in `straight`; with those that they meet. Sorted.
+std::vector<std::uint32_t> spoilt_faces(const CurvedSurface& surface, const SurfaceMesh& straight,
+                                        const std::vector<std::uint32_t>& faces) {
+  std::vector<std::uint32_t> spoilt, quarters;
+  for (const std::uint32_t f : faces)
+    for (std::uint32_t q = 0; q < 4; ++q) quarters.push_back(4 * f + q);
+  for (const FacePair& pair : find_self_intersections(in_four(surface), quarters))
+    spoilt.insert(spoilt.end(), {pair.face / 4, pair.other / 4});
+  for (const FacePair& pair : find_self_intersections(surface.corners, faces))
+    spoilt.insert(spoilt.end(), {pair.face, pair.other});
+  for (const std::uint32_t f : faces)
     if (is_needle(surface.corners, straight.triangles[f], least_angle_deg) &&
         !is_needle(straight, straight.triangles[f], least_angle_deg))
-      faces.push_back(f);
-  std::sort(faces.begin(), faces.end());
-  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-  return faces;
+      spoilt.push_back(f);
+  sort_and_unique(spoilt);
+  return spoilt;
+}
+
+// Those that share a node with one of these; sorted.
+std::vector<std::uint32_t> faces_around(const CurvedSurface& surface, const std::vector<std::uint32_t>& faces) {
+  std::vector<bool> is_node(surface.corners.vertices.size(), false);
+  for (const std::uint32_t f : faces)
+    for (const std::uint32_t v : surface.corners.triangles[f]) is_node[v] = true;
+  std::vector<std::uint32_t> around;
+  for (std::uint32_t f = 0; f < surface.corners.triangles.size(); ++f)
+    if (std::ranges::any_of(surface.corners.triangles[f], [&](std::uint32_t v) { return is_node[v]; }))
+      around.push_back(f);
+  return around;
 }
 
 }  // namespace
 
-std::size_t settle(const CurvedSurface& straight, const VolumeKeeper& keep_volume, CurvedSurface& fitted,
-                   std::vector<Vec3>& directions) {
-  constexpr int trials = 10;
-  std::size_t straightened = 0;
+std::size_t settle(const CurvedSurface& straight, const VolumeKeeper& keep_volume, const KeptDeviation* kept,
+                   CurvedSurface& fitted, std::vector<Vec3>& directions) {
+  constexpr int trials = 40;
+  const std::size_t count = straight.corners.triangles.size();
+  std::vector<bool> is_straight(count, false);
+  std::vector<std::uint32_t> changed(count);
+  std::iota(changed.begin(), changed.end(), 0U);
   for (int trial = 0; trial < trials; ++trial) {
     CurvedSurface shifted = fitted;
     keep_volume(directions, shifted);
-    const std::vector<std::uint32_t> spoilt = spoilt_faces(shifted, straight.corners);
+    std::vector<std::uint32_t> spoilt = spoilt_faces(shifted, straight.corners, changed);
+    if (spoilt.empty() && kept != nullptr) spoilt = faces_beyond(shifted, *kept, changed, is_straight);
+    if (spoilt.empty() && kept != nullptr && changed.size() < count) {
+      changed.resize(count);
+      std::iota(changed.begin(), changed.end(), 0U);
+      spoilt = faces_beyond(shifted, *kept, changed, is_straight);
+    }
     if (spoilt.empty()) {
       fitted = std::move(shifted);
-      return straightened;
+      return static_cast<std::size_t>(std::ranges::count(is_straight, true));
     }
-    straightened += spoilt.size();
-    for (const std::uint32_t f : spoilt)
+    for (const std::uint32_t f : spoilt) {
+      is_straight[f] = true;
       for (const std::size_t i : straight.nodes_of(f)) {
         fitted.node(i) = straight.node(i);
         directions[i].setZero();
       }
+    }
+    changed = faces_around(straight, spoilt);
   }
   fitted = straight;
   std::fill(directions.begin(), directions.end(), Vec3::Zero());
-  return straight.corners.triangles.size();
+  return count;
 }
 
 FittedCurves fit_curves(const SurfaceMesh& surface, const FeatureNet& net, const ReferenceSurface& scan,
-                        const PlanesOfScan& planes, bool keep_corners, const Progress& progress) {
+                        const PlanesOfScan& planes, bool keep_corners, const KeptDeviation* kept,
+                        const Progress& progress) {
   const CurvedSurface straight(surface);
   FittedCurves fitted{.surface = straight, .directions = {}, .volumes = volumes_of_components(surface)};
   fitted.directions = directions_of(fitted.surface, keep_corners);
@@ -155,7 +189,7 @@ FittedCurves fit_curves(const SurfaceMesh& surface, const FeatureNet& net, const
   const auto keep_volume = [&](const std::vector<Vec3>& directions, CurvedSurface& shifted) {
     keep_curved_volume(shifted, fitted.volumes, directions);
   };
-  fitted.straight = settle(straight, keep_volume, fitted.surface, fitted.directions);
+  fitted.straight = settle(straight, keep_volume, kept, fitted.surface, fitted.directions);
   return fitted;
 }
 

@@ -258,8 +258,11 @@ const PlanesOfScan& Simplification::planes() const {
 
 FittedCurves Simplification::curved(const SimplifyResult& result, const SurfaceMesh& surface, bool keep_corners,
                                     const Progress& progress) const {
-  return fit_curves(surface, result.on_scan->net, result.on_scan->scan->reference(), state_->search->planes(),
-                    keep_corners, progress);
+  const PreparedScan& scan = *result.on_scan->scan;
+  std::optional<KeptDeviation> kept;
+  if (result.keeps_deviation()) kept.emplace(scan.deviation_reference(), result.aimed_deviation);
+  return fit_curves(surface, result.on_scan->net, scan.reference(), state_->search->planes(), keep_corners,
+                    kept ? &*kept : nullptr, progress);
 }
 
 SimplifyResult simplify(SurfaceMesh& mesh, const SimplifyOptions& options, const Progress& progress) {

@@ -90,6 +90,9 @@ struct SimplifyResult {
   std::size_t feature_edges_kept = 0;            // edges of the result that stand for creases and borders
   std::vector<FeatureEdge> line_edges;           // these edges, and those that stand for lines; sorted
   std::shared_ptr<const SurfaceOnScan> on_scan;  // for Simplification::curved; of `simplify`, none
+
+  // Whether a deviation was asked for, and reached.
+  bool keeps_deviation() const { return aimed_deviation > 0 && largest_deviation <= aimed_deviation; }
 };
 
 }  // namespace scan2fea
