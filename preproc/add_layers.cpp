@@ -12,6 +12,7 @@
 #include "preproc/surface/fit/preserve_volume.hpp"
 #include "preproc/surface/kernel/adjacency.hpp"
 #include "preproc/surface/simplification/surface_on_scan.hpp"
+#include "preproc/surface/simplification/vertices_beyond.hpp"
 #include "preproc/volume/two_sided_elements.hpp"
 #include "preproc/ways_on_scan.hpp"
 #include "preproc/weak_places.hpp"
@@ -67,12 +68,25 @@ class LayerMaker {
     take_layers();
   }
 
-  LayeredMesh make(const TetrahedralizeOptions& options, const Progress& progress) {
-    TetMesh core = filled(options, progress);
-    if (is_to_be_curved_) result_.parted_elements = part_two_sided_elements(core, surface_.vertices.size(), lines_);
-    LayeredMesh made = join_layers(outer_, layered_, columns_, core, lines_);
-    if (!is_to_be_curved_) keep_volume(made);
-    return made;
+  // `kept`: a deviation that the straight surface has, and is to keep, or null; then layers are lower where it would be
+  // lost for want of room beside them.
+  LayeredMesh make(const TetrahedralizeOptions& options, const double* kept, const Progress& progress) {
+    constexpr int most_trials = 4;
+    for (int trial = 1;; ++trial) {
+      TetMesh core = filled(options, progress);
+      if (is_to_be_curved_) result_.parted_elements = part_two_sided_elements(core, surface_.vertices.size(), lines_);
+      LayeredMesh made = join_layers(outer_, layered_, columns_, core, lines_);
+      if (is_to_be_curved_) return made;
+      keep_volume(made);
+      if (kept == nullptr) return made;
+      const DeviationBound bound = bound_deviation(made.surface, scan_.deviation_reference(), {.limit = *kept});
+      result_.deviation = bound.upper();
+      if (bound.holds(*kept) || trial == most_trials) return made;
+      std::vector<Vertices> groups;
+      for (const std::uint32_t v : vertices_beyond(made.surface, bound, *kept))
+        if (v < surface_.vertices.size()) groups.push_back(with_columns_near({v}));
+      if (!heights_.lower_at(groups)) return made;
+    }
   }
 
   LayersResult result() const;
@@ -109,29 +123,27 @@ class LayerMaker {
   void make_columns() {
     for (int round = 0;; ++round) {
       place_columns();
-      if (columns_.nodes.empty()) refuse_all();
+      if (columns_.nodes.empty()) refuse_all(surface_.triangles[first_layered()].front());
       const std::vector<Vertices> bad = find_bad();
       const Vertices flat =
           bad.empty() ? find_flat_layers(outer_, layered_, columns_, least_dihedral_deg()) : Vertices();
       if (bad.empty() && flat.empty()) return;
-      if (round == most_rounds) refuse_all();
       if (!flat.empty())
         heights_.drop(flat);
-      else if (!heights_.lower_at(bad))
-        refuse_all();
+      else if (round == most_rounds || !heights_.lower_at(bad))
+        refuse_all(bad.front().empty() ? surface_.triangles[first_layered()].front() : bad.front().front());
     }
   }
+
+  std::size_t first_layered() const { return static_cast<std::size_t>(std::ranges::find(mask_, true) - mask_.begin()); }
 
   // Of straight elements: curved ones may lose half of theirs. Lower layers would have less.
   double least_dihedral_deg() const {
     return unusable_angle_deg * (is_to_be_curved_ ? flattest_curved / flattest_straight : 1);
   }
 
-  [[noreturn]] void refuse_all() const {
-    const auto v = static_cast<std::size_t>(
-        std::ranges::find_if(layers_of_, [](std::uint32_t layers) { return layers != no_layers; }) -
-        layers_of_.begin());
-    refuse("there is no room for layers", surface_.vertices[std::min(v, layers_of_.size() - 1)], {},
+  [[noreturn]] void refuse_all(std::uint32_t at) const {
+    refuse("there is no room for layers", surface_.vertices[at], {},
            "lower layers, or smaller triangles (--faces, --edge-length)");
   }
 
@@ -173,8 +185,27 @@ class LayerMaker {
     }
     const std::optional<std::uint32_t> guide = on_line ? on_line : is_on_crease_beside(v) ? std::nullopt : on_face;
     if (!guide) return node;
-    const std::optional<WayPoint> way = ways_(*guide, node);
-    return way ? way->place : node;
+    // What bends away from the way is as far from the layered faces a little farther on.
+    constexpr int steps = 3;
+    const Vec3& from = surface_.vertices[v];
+    const Vec3 outwards = outwards_of_layers(v);
+    Vec3 place = node, wanted = node;
+    for (int step = 0; step < steps; ++step) {
+      const std::optional<WayPoint> way = ways_(*guide, wanted);
+      if (!way) return place;
+      place = way->place;
+      const double depth = outwards.dot(from - place);
+      if (!(depth > 0)) return place;
+      wanted = from + outwards.dot(from - node) / depth * (wanted - from);
+    }
+    return place;
+  }
+
+  Vec3 outwards_of_layers(std::uint32_t v) const {
+    Vec3 sum = Vec3::Zero();
+    for (const std::uint32_t corner : stars_.corners(v))
+      if (mask_[corner / 3]) sum += area_vector(surface_, surface_.triangles[corner / 3]);
+    return sum.normalized();
   }
   static constexpr double most_off_line = 0.5;
 
@@ -202,7 +233,8 @@ class LayerMaker {
   std::vector<Vertices> find_bad() const;
   std::vector<Vertices> find_poor(const TetMesh& core) const;
   Vertices with_columns_near(const Vertices& vertices) const;
-  void keep_volume(LayeredMesh& made) const;
+  void keep_volume(LayeredMesh& made);
+  void shift_to(double wanted, LayeredMesh& made) const;
 
   const LayeredTriangles& layered_;
   const bool is_to_be_curved_;
@@ -268,9 +300,16 @@ Vertices LayerMaker::with_columns_near(const Vertices& vertices) const {
 }
 
 // By what is beside the layers, and round: layers and planes stay where they are.
-void LayerMaker::keep_volume(LayeredMesh& made) const {
+void LayerMaker::keep_volume(LayeredMesh& made) {
   constexpr double is_equal = 1e-9;
   const double wanted = enclosed_volume(scan_.mesh);
+  shift_to(wanted, made);
+  const double off = std::abs(enclosed_volume(made.surface) / wanted - 1);
+  result_.lost_volume_pct = off > 1000 * is_equal ? 100 * off : 0;
+}
+
+void LayerMaker::shift_to(double wanted, LayeredMesh& made) const {
+  constexpr double is_equal = 1e-9;
   if (std::abs(enclosed_volume(made.surface) - wanted) <= is_equal * wanted) return;
   VertexConstraints constraints(made.surface.vertices.size(), VertexConstraint::fixed);
   for (std::size_t v = 0; v < surface_.vertices.size(); ++v)
@@ -298,11 +337,9 @@ LayersResult LayerMaker::result() const {
     if (layers_of_[v] == no_layers) continue;
     ++result.vertices;
     const double share = heights_.at(v) / heights_.asked(v);
-    if (share == 0) {
-      ++result.tapered_vertices;
-      continue;
-    }
-    result.lower_vertices += share < as_asked ? 1 : 0;
+    if (share == 0) ++result.tapered_vertices;
+    if (heights_.room(v) >= as_asked * heights_.asked(v)) continue;
+    ++result.lower_vertices;
     if (share >= result.least_share) continue;
     result.least_share = share;
     result.least_at = surface_.vertices[v];
@@ -315,20 +352,18 @@ LayersResult LayerMaker::result() const {
 LayersResult add_layers(const LayeredTriangles& layered, const PlanesOfScan& planes,
                         const TetrahedralizeOptions& options, bool is_to_be_curved, FilledSurface& made,
                         const Progress& progress) {
+  SimplifyResult& simplified = made.simplified;
+  const bool was_kept = !is_to_be_curved && simplified.keeps_deviation();
   LayerMaker maker(layered, planes, is_to_be_curved, made);
-  LayeredMesh mesh = maker.make(options, progress);
+  LayeredMesh mesh = maker.make(options, was_kept ? &simplified.aimed_deviation : nullptr, progress);
   LayersResult result = maker.result();
   result.parallel = std::move(mesh.parallel);
   result.tetrahedra = mesh.layer_tetrahedra;
   result.all_tetrahedra = mesh.mesh.tetrahedra.size();
   result.nodes = mesh.mesh.nodes.size();
-  SimplifyResult& simplified = made.simplified;
-  if (simplified.largest_deviation > 0) {
-    const DeviationReference& scan = simplified.on_scan->scan->deviation_reference();
-    const bool was_kept = simplified.largest_deviation <= simplified.aimed_deviation;
-    simplified.largest_deviation = bound_deviation(mesh.surface, scan, {.limit = simplified.aimed_deviation}).upper();
-    if (was_kept && !is_to_be_curved && simplified.largest_deviation > simplified.aimed_deviation)
-      result.lost_deviation = simplified.largest_deviation;
+  if (was_kept) {
+    simplified.largest_deviation = result.deviation;
+    if (!simplified.keeps_deviation()) result.lost_deviation = result.deviation;
   }
   simplified.line_edges = std::move(mesh.lines);
   made.surface = std::move(mesh.surface);

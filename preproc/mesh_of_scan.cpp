@@ -3,6 +3,7 @@
 #include "preproc/add_layers.hpp"
 #include "preproc/layers/column_heights.hpp"
 #include "preproc/mesh/error.hpp"
+#include "preproc/mesh/error_text.hpp"
 #include "preproc/mirrored_surface.hpp"
 #include "preproc/second_order.hpp"
 #include "preproc/slide_boundary.hpp"
@@ -88,6 +89,7 @@ class MeshMaker {
   void tetrahedralize(const Progress& progress);
   void slide(const Progress& progress);
   void layer(const Progress& progress);
+  void refuse_lost_deviation() const;
   void curve(const Progress& progress);
   void curve_surface(const Progress& progress);
   void bring_back();
@@ -276,13 +278,27 @@ void MeshMaker::layer(const Progress& progress) {
     layers = add_layers(layered, search_->planes(), tetrahedralization_, is_curved, made_, in_time);
     describe(layers, in_scan_, record);
   });
+  if (layers.lost_deviation > 0) refuse_lost_deviation();
   if (!is_curved) return;
+  SecondOrderResult curved;
   log_.run("second order", [&](StageRecord& record) {
-    SecondOrderResult curved = curve_layers(*fitted, layers.parallel, made_, in_time);
+    curved = curve_layers(*fitted, layers.parallel, scan(), made_, in_time);
     curved.parted_elements = layers.parted_elements;
     describe(curved, in_scan_, record);
     note_left_out(in_time, "curved sides that are fitted to the scan", record, result_);
   });
+  if (curved.triangles_beyond > 0) refuse_lost_deviation();
+}
+
+// Where it is a bound; of an aim a warning tells.
+void MeshMaker::refuse_lost_deviation() const {
+  const auto* bound = std::get_if<LargestDeviation>(&simplification_.size);
+  if (bound == nullptr || !bound->required) return;
+  throw NotMeshable({.what = "beside the layers the surface would be farther from the scan than was asked for",
+                     .where = {},
+                     .value = {},
+                     .limit = error_text(in_scan_.unit() * bound->distance, 4),
+                     .advice = "lower layers, a larger --deviation, or --faces instead of it"});
 }
 
 void MeshMaker::curve(const Progress& progress) {

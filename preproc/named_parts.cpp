@@ -35,6 +35,14 @@ std::vector<NamedSelection> with_given(std::vector<NamedSelection> selections, c
   return selections;
 }
 
+NotMeshable nothing_left(const std::string& set, std::optional<double> area) {
+  return NotMeshable({.what = "nothing is left of the set " + set,
+                      .where = {},
+                      .value = area ? "area " + std::to_string(*area) : "",
+                      .limit = {},
+                      .advice = "smaller triangles (--deviation, --faces, --size-ball), --method lattice"});
+}
+
 // The selected sets on a surface that was made of the scan, with these lines.
 std::vector<NamedSet> sets_on_surface(const SelectedScan& selected, const SurfaceMesh& surface,
                                       const std::vector<FeatureEdge>& lines) {
@@ -95,12 +103,7 @@ void carry_parts(const SelectedScan& selected, const PipelineOptions& options, c
   for (std::size_t s = 0; s < carried.size(); ++s) {
     NamedSet& set = carried[s];
     if (set.members.empty() && s >= options.sets.size()) continue;
-    if (set.members.empty())
-      throw NotMeshable({.what = "nothing is left of the set " + set.name,
-                         .where = {},
-                         .value = "area " + std::to_string(selected.areas[s]),
-                         .limit = {},
-                         .advice = "smaller triangles (--deviation, --faces, --size-ball), --method lattice"});
+    if (set.members.empty()) throw nothing_left(set.name, selected.areas[s]);
     add_set(std::move(set), selected.areas[s], result);
   }
   if (options.name_faces) name_faces(selected, simplified, result);
@@ -118,7 +121,8 @@ void require_sets_of_layers(const SelectedScan* selected, const std::vector<Laye
                       .where = {},
                       .value = asked.set,
                       .limit = known.empty() ? "no set" : known,
-                      .advice = "--set '" + asked.set + "=EXPRESSION'"});
+                      .advice = "--set '" + asked.set + "=" +
+                                (asked.set.starts_with("FACE_") ? asked.set : std::string("EXPRESSION")) + "'"});
   }
 }
 
@@ -132,12 +136,20 @@ LayeredTriangles layered_triangles(const SelectedScan* selected, const std::vect
     const auto number = static_cast<std::uint32_t>(same - result.heights.begin());
     if (same == result.heights.end()) result.heights.push_back(asked.heights);
     const auto take = [&](std::uint32_t f) {
-      if (result.of_triangle[f] == no_layers) result.of_triangle[f] = number;
+      if (result.of_triangle[f] != no_layers && result.of_triangle[f] != number)
+        throw WrongUsage({.what = "two kinds of layers behind the same triangles",
+                          .where = "--layers",
+                          .value = asked.set.empty() ? "all of the surface" : asked.set,
+                          .limit = {},
+                          .advice = "sets that do not overlap"});
+      result.of_triangle[f] = number;
     };
     if (asked.set.empty())
       for (std::uint32_t f = 0; f < result.of_triangle.size(); ++f) take(f);
+    else if (const NamedSet& set = sets[find_set(sets, asked.set)]; !set.members.empty())
+      std::ranges::for_each(set.members, take);
     else
-      std::ranges::for_each(sets[find_set(sets, asked.set)].members, take);
+      throw nothing_left(set.name, {});
   }
   return result;
 }

@@ -21,8 +21,8 @@ SelectedScan select_parts(const SurfaceMesh& whole, const SurfaceMesh& given, co
 void carry_parts(const SelectedScan& selected, const PipelineOptions& options, const SimplifyResult& simplified,
                  PipelineResult& result);
 
-// Which triangles of a surface that was made of the selected scan are to have layers. A triangle of several sets has
-// the layers that are asked for first. Precondition: the sets are there.
+// Which triangles of a surface that was made of the selected scan are to have layers. Precondition: the sets are
+// there. Throws WrongUsage where two kinds of layers are to be behind one triangle, NotMeshable where a set is lost.
 LayeredTriangles layered_triangles(const SelectedScan* selected, const std::vector<LayerOptions>& layers,
                                    const SurfaceMesh& surface, const std::vector<FeatureEdge>& lines);
 

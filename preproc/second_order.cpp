@@ -1,11 +1,15 @@
 #include "preproc/second_order.hpp"
 
 #include "preproc/mesh/error.hpp"
+#include "preproc/surface/curved/faces_beyond.hpp"
 #include "preproc/surface/curved/fit_curves.hpp"
 #include "preproc/surface/curved/keep_curved_volume.hpp"
+#include "preproc/surface/simplification/surface_on_scan.hpp"
 #include "preproc/volume/two_sided_elements.hpp"
 
 #include <algorithm>
+#include <map>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -46,6 +50,19 @@ CurveResult curve(FittedCurves& fitted, TetMesh& mesh, const Progress& progress)
 
 }  // namespace
 
+namespace {
+
+std::size_t count_beyond(const SimplifyResult& simplified, const CurvedSurface& surface) {
+  if (!simplified.keeps_deviation()) return 0;
+  constexpr double as_told = 1.01;  // faces_beyond is right to a hundredth
+  const KeptDeviation kept{simplified.on_scan->scan->deviation_reference(), as_told * simplified.aimed_deviation};
+  std::vector<std::uint32_t> all(surface.corners.triangles.size());
+  std::iota(all.begin(), all.end(), 0U);
+  return faces_beyond(surface, kept, all, std::vector<bool>(all.size(), false)).size();
+}
+
+}  // namespace
+
 SecondOrderResult make_second_order(const Simplification& search, const TetrahedralizeOptions& tetrahedralization,
                                     FilledSurface& made, const Progress& progress) {
   SecondOrderResult result;
@@ -60,6 +77,7 @@ SecondOrderResult make_second_order(const Simplification& search, const Tetrahed
   result.parted_elements =
       part_two_sided_elements(filled->mesh, fitted.surface.corners.vertices.size(), made.simplified.line_edges);
   result.curved = curve(fitted, filled->mesh, progress);
+  if (result.curved.eased > 0) result.triangles_beyond = count_beyond(made.simplified, fitted.surface);
   made.filled = std::move(*filled);
   made.surface = std::move(fitted.surface.corners);
   return result;
@@ -67,10 +85,41 @@ SecondOrderResult make_second_order(const Simplification& search, const Tetrahed
 
 namespace {
 
+// Where the node of an edge is to be, and the edge of the fitted surface that it is parallel to; that is none where it
+// is on the scan by itself.
+struct PlacedEdge {
+  Vec3 place;
+  std::optional<FeatureEdge> parent;
+};
+using PlacedEdges = std::map<FeatureEdge, PlacedEdge>;
+
+PlacedEdges places_of(const FittedCurves& fitted, const std::vector<ParallelEdge>& parallel, const SurfaceMesh& scan,
+                      const FilledSurface& made) {
+  const TetMesh& mesh = made.filled.mesh;
+  const CurvedSurface& surface = fitted.surface;
+  PlacedEdges placed;
+  for (const auto& [edge, parent] : parallel) {
+    const std::size_t e = surface.edge(parent);
+    const Vec3 middle = (mesh.nodes[edge[0]] + mesh.nodes[edge[1]]) / 2;
+    placed.try_emplace(edge, middle + surface.mid[e] - surface.middle(e), parent);
+  }
+  const auto is_as_fitted = [&](std::uint32_t v) {
+    return v < surface.corners.vertices.size() && mesh.nodes[v] == surface.corners.vertices[v];
+  };
+  const EdgePlaces on_scan = nearest_on_scan(mesh, TriangleTree(scan));
+  for (std::size_t i = 0; i < on_scan.edges.size(); ++i) {
+    const FeatureEdge& edge = on_scan.edges[i];
+    const bool is_on_line = std::ranges::binary_search(made.simplified.line_edges, edge);
+    if (is_on_line || (is_as_fitted(edge[0]) && is_as_fitted(edge[1]))) continue;
+    placed.insert_or_assign(edge, PlacedEdge{on_scan.places[i], std::nullopt});
+  }
+  return placed;
+}
+
 // What easing has taken of the volume, the other nodes of edges take up, along the directions that their edge of the
 // fitted surface has.
-void keep_volume(const FittedCurves& fitted, const std::vector<FeatureEdge>& of_surface, const EdgePlaces& wanted,
-                 const EdgePlaces& placed, FilledSurface& made) {
+CurvedSurface with_volume(const FittedCurves& fitted, const PlacedEdges& wanted, const EdgePlaces& placed,
+                          FilledSurface& made) {
   CurvedSurface surface(made.surface);
   std::vector<Vec3> directions(surface.nodes(), Vec3::Zero());
   const std::size_t corners = surface.corners.vertices.size(), fitted_corners = fitted.surface.corners.vertices.size();
@@ -79,34 +128,31 @@ void keep_volume(const FittedCurves& fitted, const std::vector<FeatureEdge>& of_
     if (at == surface.edges.end() || *at != placed.edges[i]) continue;
     const auto e = static_cast<std::size_t>(at - surface.edges.begin());
     surface.mid[e] = placed.places[i];
-    if (placed.places[i] != wanted.places[i]) continue;
-    directions[corners + e] = fitted.directions[fitted_corners + fitted.surface.edge(of_surface[i])];
+    const PlacedEdge& as_wanted = wanted.at(placed.edges[i]);
+    if (as_wanted.parent && placed.places[i] == as_wanted.place)
+      directions[corners + e] = fitted.directions[fitted_corners + fitted.surface.edge(*as_wanted.parent)];
   }
   keep_curved_volume(surface, fitted.volumes, std::move(directions));
   place_mid_edge_nodes(made.filled.mesh, {surface.edges, surface.mid});
+  return surface;
 }
 
 }  // namespace
 
 SecondOrderResult curve_layers(const FittedCurves& fitted, const std::vector<ParallelEdge>& parallel,
-                               FilledSurface& made, const Progress& progress) {
+                               const SurfaceMesh& scan, FilledSurface& made, const Progress& progress) {
   TetMesh& mesh = made.filled.mesh;
-  EdgePlaces to;
-  std::vector<FeatureEdge> of_surface;  // of each place
-  for (const auto& [edge, parent] : parallel) {
-    if (!to.edges.empty() && to.edges.back() == edge) continue;
-    const std::size_t e = fitted.surface.edge(parent);
-    of_surface.push_back(parent);
-    to.edges.push_back(edge);
-    to.places.emplace_back((mesh.nodes[edge[0]] + mesh.nodes[edge[1]]) / 2 + fitted.surface.mid[e] -
-                           fitted.surface.middle(e));
-  }
   add_mid_edge_nodes(mesh);
+  const PlacedEdges wanted = places_of(fitted, parallel, scan, made);
+  EdgePlaces to;
+  for (const auto& [edge, placed] : wanted) {
+    to.edges.push_back(edge);
+    to.places.push_back(placed.place);
+  }
   SecondOrderResult result;
   result.straight_triangles = fitted.straight;
-  const EdgePlaces wanted = to;
   result.curved = curve_mid_edge_nodes(mesh, to, progress, made.flat_tetrahedra);
-  keep_volume(fitted, of_surface, wanted, to, made);
+  result.triangles_beyond = count_beyond(made.simplified, with_volume(fitted, wanted, to, made));
   result.curved.volume = total_volume(mesh);
   return result;
 }

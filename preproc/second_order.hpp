@@ -15,6 +15,7 @@ struct SecondOrderResult {
   CurveResult curved;
   std::size_t straight_triangles = 0;  // see FittedCurves
   std::size_t parted_elements = 0;     // see two_sided_elements.hpp
+  std::size_t triangles_beyond = 0;    // a deviation that is to be kept, since nodes of their edges were eased
   bool corners_kept = false;           // since between corners on the scan no tetrahedra came out in time
 };
 
@@ -26,8 +27,9 @@ SecondOrderResult make_second_order(const Simplification& search, const Tetrahed
                                     FilledSurface& made, const Progress& progress = {});
 
 // The same where `made` has layers behind the corners of `fitted`: nodes of edges are as far from their middles as
-// those of the surface's edges that they are parallel to.
+// those of the surface's edges that they are parallel to; where vertices made room beside the layers, they are on the
+// scan.
 SecondOrderResult curve_layers(const FittedCurves& fitted, const std::vector<ParallelEdge>& parallel,
-                               FilledSurface& made, const Progress& progress = {});
+                               const SurfaceMesh& scan, FilledSurface& made, const Progress& progress = {});
 
 }  // namespace scan2fea

@@ -231,6 +231,9 @@ void describe(const LayersResult& layers, const InScan& in_scan, StageRecord& re
                               std::to_string(layers.vertices) + " vertices, for want of room: down to " +
                               error_text(100 * layers.least_share, 3) + " % of the height at " +
                               error_text(in_scan.place(layers.least_at)));
+  if (layers.lost_volume_pct > 0)
+    record.warnings.push_back("the surface that made room for the layers encloses " +
+                              error_text(layers.lost_volume_pct, 3) + " % more or less than the scan");
   if (layers.lost_deviation > 0)
     record.warnings.push_back(
         "to make room for the layers vertices beside them moved along the scan: the surface is " +
@@ -250,9 +253,14 @@ void describe(const SecondOrderResult& result, const InScan& in_scan, StageRecor
                     {"eased_edges", static_cast<double>(curved.eased)},
                     {"parted_elements", static_cast<double>(result.parted_elements)},
                     {"straight_triangles", static_cast<double>(result.straight_triangles)},
+                    {"triangles_beyond", static_cast<double>(result.triangles_beyond)},
                     {"largest_bend", unit * curved.largest_displacement},
                     {"least_scaled_jacobian", curved.least_scaled_jacobian},
                     {"curved_volume", unit * unit * unit * curved.volume}};
+  if (result.triangles_beyond > 0)
+    record.warnings.push_back(std::to_string(result.triangles_beyond) +
+                              " curved triangles are farther from the scan than was asked for: smaller triangles, or a "
+                              "smaller --deviation, keep it");
   if (result.corners_kept)
     record.remarks.emplace_back("corners stayed where they were: with them on the scan no tetrahedra came out in time");
 }

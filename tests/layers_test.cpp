@@ -176,6 +176,37 @@ TEST(Layers, TaperOffWhereNoEdgeEndsThem) {
   EXPECT_EQ(figure(result, "largest_move"), 0) << "nothing has to make room";
 }
 
+// Of a cone's foot: what makes room for them goes along its side, as near to it as was asked for, or it is an error.
+TEST(Layers, KeepADeviationThatWasAskedFor) {
+  const double bound = 0.05;
+  SurfaceMesh cone = analytic::cylinder(10, 20, 160, 50);
+  for (Vec3& p : cone.vertices) p.head<2>() *= 1 - p.z() / 40;
+  for (const int order : {1, 2}) {
+    PipelineOptions options = options_with("foot=plane(z<0.1)", {.count = 4, .first = 0.2, .growth = 1.3});
+    options.simplify->size = LargestDeviation{.distance = bound};
+    options.order = order;
+    const PipelineResult result = run_pipeline(cone, options);
+    EXPECT_GT(figure(result, "layer_tetrahedra"), 0);
+    const TetMesh& mesh = *result.volume_mesh;
+    const double slope = std::atan(0.25);
+    for (std::uint32_t f = 0; f < mesh.boundary.size(); ++f)
+      for (const std::uint32_t v : nodes_of_faces(mesh, std::array{f})) {
+        const Vec3& p = mesh.nodes[v];
+        const double beside = std::abs(p.head<2>().norm() - 10 + p.z() / 4) * std::cos(slope);
+        EXPECT_LT(std::min({beside, std::abs(p.z()), std::abs(p.z() - 20)}), bound) << order << ": " << p.transpose();
+      }
+  }
+}
+
+// A patch in the middle of a face tapers off, and is as high as asked for within; the part has room for it.
+TEST(Layers, ThatTaperOffHaveRoom) {
+  const PipelineResult result =
+      run_pipeline(plate(), options_with("mid=box(6,6,5, 34,24,7)", {.count = 3, .first = 0.2, .growth = 1.3}, 3000));
+  expect_sound(result, plate());
+  EXPECT_EQ(figure(result, "lower_vertices"), 0);
+  EXPECT_TRUE(stage_of(result).warnings.empty());
+}
+
 // Layers that are higher than a wall, and than the radius of a rod.
 class LayersWithoutRoom : public testing::TestWithParam<SurfaceMesh (*)()> {};
 
@@ -256,8 +287,19 @@ TEST(LayersRefuse, ASetThatThereIsNot) {
 
 TEST(LayersRefuse, DifferentHeightsThatMeet) {
   PipelineOptions options = options_with("top=plane(z>5.9)", five);
+  options.sets.push_back(parse_selection("side=plane(x<0.1)", ""));
+  options.layers.push_back({.set = "side", .heights = {.count = 2, .first = 0.2, .growth = 1}});
+  const NotMeshable error = error_from<NotMeshable>([&] { run_pipeline(plate(), options); });
+  EXPECT_THAT(error.what(), HasSubstr("heights meet"));
+  ASSERT_TRUE(error.parts().at);
+  EXPECT_NEAR(error.parts().at->x(), 0, 1e-6);
+  EXPECT_NEAR(error.parts().at->z(), 6, 1e-6);
+}
+
+TEST(LayersRefuse, TwoKindsBehindTheSameTriangles) {
+  PipelineOptions options = options_with("top=plane(z>5.9)", five);
   options.layers.push_back({.set = "", .heights = {.count = 2, .first = 0.2, .growth = 1}});
-  EXPECT_THAT(error_from<NotMeshable>([&] { run_pipeline(plate(), options); }).what(), HasSubstr("heights meet"));
+  EXPECT_THAT(error_from<WrongUsage>([&] { run_pipeline(plate(), options); }).what(), HasSubstr("two kinds"));
 }
 
 // And the advice helps.

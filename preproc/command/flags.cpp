@@ -30,8 +30,8 @@ LayerOptions parse_layers(const std::string& flag, const std::string& text) {
   std::vector<std::optional<double>> numbers;
   std::istringstream parts(equal == std::string::npos ? text : text.substr(equal + 1));
   for (std::string part; std::getline(parts, part, ':');) numbers.push_back(number_in(part));
-  const bool are_there =
-      numbers.size() == 3 && std::ranges::all_of(numbers, [](const auto& n) { return n.has_value(); });
+  const bool are_there = numbers.size() == 3 && text.back() != ':' &&
+                         std::ranges::all_of(numbers, [](const auto& n) { return n.has_value(); });
   if (!are_there || equal == 0)
     throw CLI::ValidationError(flag, "'" + text + "' is not SET=N:FIRST:GROWTH or N:FIRST:GROWTH; try: wall=5:0.1:1.3");
   const double count = *numbers[0], first = *numbers[1], growth = *numbers[2];

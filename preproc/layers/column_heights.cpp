@@ -17,8 +17,8 @@ namespace {
 // Of a wall, that the layers behind one side may take where the other side has layers, too, or has none.
 constexpr double share_of_both = 0.4, share_of_one = 0.8;
 constexpr double steps = 16;
-constexpr double steepest = 1;  // of the last layer's end over the surface
-constexpr double lower = 0.7, lowest = 0.1;
+constexpr double steepest = 0.6;  // of the last layer's end over the surface
+constexpr double lower = 0.7;
 
 double longest_edge(const SurfaceMesh& surface, const Triangle& t) {
   double longest = 0;
@@ -63,12 +63,11 @@ ColumnHeights::ColumnHeights(const SurfaceMesh& surface, const TriangleTree& tre
     const double flat = flattest * longest_edge(surface, t) / layers.share(1);
     for (const std::uint32_t v : t) {
       asked_[v] = layers.total();
-      lowest_[v] = std::max({lowest_[v], lowest * asked_[v], flat});
+      lowest_[v] = std::max(lowest_[v], flat);
     }
   }
-  height_ = asked_;
-  for (std::size_t v = 0; v < height_.size(); ++v)
-    if (directions.inwards[v].isZero()) height_[v] = 0;
+  room_ = asked_;
+  for (std::size_t v = 0; v < room_.size(); ++v) has_way_.push_back(!directions.inwards[v].isZero());
   keep_walls(tree);
   settle();
 }
@@ -86,12 +85,15 @@ void ColumnHeights::keep_walls(const TriangleTree& tree) {
     // In steps, since a surface that is nearly plane behind the layers would have flat elements on it.
     const double step = layered_.heights[layers].total() / steps;
     const double most = step * std::floor((is_both ? share_of_both : share_of_one) * wall->thickness / step);
-    for (const std::uint32_t v : t) height_[v] = std::min(height_[v], most);
+    for (const std::uint32_t v : t) room_[v] = std::min(room_[v], most);
   }
 }
 
 // What tapers off may become too low.
 void ColumnHeights::settle() {
+  height_ = room_;
+  for (std::size_t v = 0; v < height_.size(); ++v)
+    if (!has_way_[v]) height_[v] = 0;
   do taper();
   while (drop_lowest());
 }
@@ -136,14 +138,14 @@ bool ColumnHeights::lower_at(const std::vector<std::vector<std::uint32_t>>& grou
     double highest = 0;
     for (const std::uint32_t v : group) highest = std::max(highest, before[v]);
     any = any || highest > 0;
-    for (const std::uint32_t v : group) height_[v] = std::min(height_[v], lower * highest);
+    for (const std::uint32_t v : group) room_[v] = std::min(room_[v], lower * highest);
   }
   settle();
   return any;
 }
 
 void ColumnHeights::drop(const std::vector<std::uint32_t>& vertices) {
-  for (const std::uint32_t v : vertices) height_[v] = 0;
+  for (const std::uint32_t v : vertices) room_[v] = 0;
   settle();
 }
 

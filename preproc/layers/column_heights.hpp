@@ -18,7 +18,7 @@ inline constexpr double flattest_straight = 0.01, flattest_curved = 0.02;
 void require_high_layers(const SurfaceMesh& surface, const LayeredTriangles& layered, double flattest, double unit);
 
 // The height of all layers together behind each vertex of a surface: as asked for, and lower where there is no room for
-// it. It falls to zero where layers taper off, by at most one for one along the surface.
+// it. It falls to zero where layers taper off, by at most 0.6 for one along the surface.
 class ColumnHeights {
  public:
   // `tree` holds the surface's triangles. A fifth of a wall stays free of layers. Keeps references.
@@ -27,6 +27,8 @@ class ColumnHeights {
 
   double at(std::uint32_t vertex) const { return height_[vertex]; }
   double asked(std::uint32_t vertex) const { return asked_[vertex]; }
+  // What there is room for, whatever tapers off beside it.
+  double room(std::uint32_t vertex) const { return room_[vertex]; }
   // Behind so much lower layers there are none: they taper off.
   bool has_layers(std::uint32_t vertex) const { return height_[vertex] > 0; }
 
@@ -45,7 +47,8 @@ class ColumnHeights {
 
   const SurfaceMesh& surface_;
   const LayeredTriangles& layered_;
-  std::vector<double> height_, asked_, lowest_;
+  std::vector<bool> has_way_;
+  std::vector<double> asked_, room_, lowest_, height_;
 };
 
 }  // namespace scan2fea
