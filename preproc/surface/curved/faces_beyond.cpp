@@ -62,7 +62,9 @@ class FaceJudge {
   }
 
  private:
-  DeviationBoundOptions options(double part) const { return {.limit = (1 - part) * kept_.distance, .tolerance = 3 * part}; }
+  DeviationBoundOptions options(double part) const {
+    return {.limit = (1 - part) * kept_.distance, .tolerance = 3 * part};
+  }
 
   // `of_scan`: triangles of the scan to ask for; those that are far are left in it.
   std::vector<std::uint32_t> nearest_to_far(std::vector<std::uint32_t>& of_scan, const Pieces& pieces,
