@@ -170,6 +170,7 @@ class LayerMaker {
 
   // On the face or the line that the column of v runs along, by a vertex that is on it.
   Vec3 on_scan_beside(std::uint32_t v, const Vec3& node) const {
+    constexpr double most_off_line = 0.5;  // radians
     std::optional<std::uint32_t> on_line, on_face;
     for (const std::uint32_t corner : stars_.corners(v)) {
       if (mask_[corner / 3]) continue;
@@ -207,7 +208,6 @@ class LayerMaker {
       if (mask_[corner / 3]) sum += area_vector(surface_, surface_.triangles[corner / 3]);
     return sum.normalized();
   }
-  static constexpr double most_off_line = 0.5;
 
   // Whether two faces beside the layers meet at v, so that the column runs along their edge.
   bool is_on_crease_beside(std::uint32_t v) const {
@@ -234,7 +234,7 @@ class LayerMaker {
   std::vector<Vertices> find_poor(const TetMesh& core) const;
   Vertices with_columns_near(const Vertices& vertices) const;
   void keep_volume(LayeredMesh& made);
-  void shift_to(double wanted, LayeredMesh& made) const;
+  void shift_to_volume(LayeredMesh& made) const;
 
   const LayeredTriangles& layered_;
   const bool is_to_be_curved_;
@@ -299,18 +299,16 @@ Vertices LayerMaker::with_columns_near(const Vertices& vertices) const {
   return {};
 }
 
-// By what is beside the layers, and round: layers and planes stay where they are.
 void LayerMaker::keep_volume(LayeredMesh& made) {
-  constexpr double is_equal = 1e-9;
+  constexpr double is_equal = 1e-9, is_lost = 1e-6;
   const double wanted = enclosed_volume(scan_.mesh);
-  shift_to(wanted, made);
-  const double off = std::abs(enclosed_volume(made.surface) / wanted - 1);
-  result_.lost_volume_pct = off > 1000 * is_equal ? 100 * off : 0;
+  const auto off = [&] { return std::abs(enclosed_volume(made.surface) / wanted - 1); };
+  if (off() > is_equal) shift_to_volume(made);
+  result_.lost_volume_pct = off() > is_lost ? 100 * off() : 0;
 }
 
-void LayerMaker::shift_to(double wanted, LayeredMesh& made) const {
-  constexpr double is_equal = 1e-9;
-  if (std::abs(enclosed_volume(made.surface) - wanted) <= is_equal * wanted) return;
+// By what is beside the layers, and round: layers and planes stay where they are. Where that cannot be, nothing moves.
+void LayerMaker::shift_to_volume(LayeredMesh& made) const {
   VertexConstraints constraints(made.surface.vertices.size(), VertexConstraint::fixed);
   for (std::size_t v = 0; v < surface_.vertices.size(); ++v)
     if (layers_of_[v] == no_layers) constraints[v] = VertexConstraint::free;
