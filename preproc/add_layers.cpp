@@ -59,7 +59,7 @@ class LayerMaker {
         stars_(surface_),
         neighbours_(face_neighbours(surface_, stars_)),
         directions_(layer_directions(surface_, stars_, neighbours_, mask_)),
-        heights_(surface_, TriangleTree(surface_), layered, directions_,
+        heights_(surface_, TriangleTree(surface_), stars_, layered, directions_,
                  is_to_be_curved ? flattest_curved : flattest_straight),
         ways_(ways_on_scan(surface_, made.simplified.on_scan->net, scan_.reference(), planes, infinity)),
         layers_of_(surface_.vertices.size(), no_layers),

@@ -15,7 +15,7 @@
 namespace scan2fea {
 namespace {
 
-constexpr double large_edge_ratio = 10;  // and of such ratios
+constexpr double large_edge_ratio = 10;  // CalculiX and Abaqus warn of larger ones
 // The scan is "about as sharp" up to so many times the angle that an unusable one has.
 constexpr double as_sharp = 2;
 constexpr double sharp_edge_deg = 30;  // edges that bound a corner of the part

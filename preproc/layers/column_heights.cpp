@@ -53,9 +53,9 @@ void require_high_layers(const SurfaceMesh& surface, const LayeredTriangles& lay
                      .at = centroid(surface, surface.triangles[at])});
 }
 
-ColumnHeights::ColumnHeights(const SurfaceMesh& surface, const TriangleTree& tree, const LayeredTriangles& layered,
-                             const LayerDirections& directions, double flattest)
-    : surface_(surface), layered_(layered), asked_(surface.vertices.size(), 0), lowest_(asked_) {
+ColumnHeights::ColumnHeights(const SurfaceMesh& surface, const TriangleTree& tree, const VertexStars& stars,
+                             const LayeredTriangles& layered, const LayerDirections& directions, double flattest)
+    : surface_(surface), stars_(stars), layered_(layered), asked_(surface.vertices.size(), 0), lowest_(asked_) {
   for (std::size_t f = 0; f < surface.triangles.size(); ++f) {
     if (layered.of_triangle[f] == no_layers) continue;
     const Triangle& t = surface.triangles[f];
@@ -110,7 +110,6 @@ bool ColumnHeights::drop_lowest() {
 
 // From the lowest on, as shortest ways are found.
 void ColumnHeights::taper() {
-  const VertexStars stars(surface_);
   using Entry = std::pair<double, std::uint32_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   for (std::uint32_t v = 0; v < height_.size(); ++v)
@@ -119,7 +118,7 @@ void ColumnHeights::taper() {
     const auto [height, v] = queue.top();
     queue.pop();
     if (height > height_[v]) continue;
-    for (const std::uint32_t corner : stars.corners(v)) {
+    for (const std::uint32_t corner : stars_.corners(v)) {
       if (layered_.of_triangle[corner / 3] == no_layers) continue;
       for (const std::uint32_t w : surface_.triangles[corner / 3]) {
         const double most = height + steepest * (surface_.vertices[w] - surface_.vertices[v]).norm();

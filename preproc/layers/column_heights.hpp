@@ -22,8 +22,8 @@ void require_high_layers(const SurfaceMesh& surface, const LayeredTriangles& lay
 class ColumnHeights {
  public:
   // `tree` holds the surface's triangles. A fifth of a wall stays free of layers. Keeps references.
-  ColumnHeights(const SurfaceMesh& surface, const TriangleTree& tree, const LayeredTriangles& layered,
-                const LayerDirections& directions, double flattest);
+  ColumnHeights(const SurfaceMesh& surface, const TriangleTree& tree, const VertexStars& stars,
+                const LayeredTriangles& layered, const LayerDirections& directions, double flattest);
 
   double at(std::uint32_t vertex) const { return height_[vertex]; }
   double asked(std::uint32_t vertex) const { return asked_[vertex]; }
@@ -46,6 +46,7 @@ class ColumnHeights {
   void taper();
 
   const SurfaceMesh& surface_;
+  const VertexStars& stars_;
   const LayeredTriangles& layered_;
   std::vector<bool> has_way_;
   std::vector<double> asked_, room_, lowest_, height_;

@@ -39,10 +39,10 @@ struct CurveResult {
   double volume = 0;                 // enclosed by the curved mesh
 };
 
-// Puts the nodes of edges to their places, or as far towards them as the elements stay good: then `to` has
-// where they are. The mesh is of second order with positive tetrahedra. Without time for improvements
-// more nodes are eased. The first `flat_tetrahedra` are meant to be flat: they are good as long as they keep half of
-// the scaled Jacobian that they have with straight edges. Throws Cancelled. Deterministic, near linear.
+// Puts the nodes of edges to their places, or as far towards them as the elements stay good: then `to` has where they
+// are. The mesh is of second order with positive tetrahedra. Without time for improvements more nodes are eased. The
+// first `flat_tetrahedra` are meant to be flat: they are good as long as they keep half of the scaled Jacobian that
+// they have with straight edges. Throws Cancelled. Deterministic, near linear.
 CurveResult curve_mid_edge_nodes(TetMesh& mesh, EdgePlaces& to, const Progress& progress = {},
                                  std::size_t flat_tetrahedra = 0);
 

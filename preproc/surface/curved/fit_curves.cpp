@@ -4,6 +4,7 @@
 #include "preproc/surface/curved/faces_beyond.hpp"
 #include "preproc/surface/curved/keep_curved_volume.hpp"
 #include "preproc/surface/kernel/cut_surface.hpp"
+#include "preproc/surface/kernel/rings.hpp"
 #include "quality/self_intersections.hpp"
 #include "quality/triangle_measures.hpp"
 
@@ -128,15 +129,14 @@ std::vector<std::uint32_t> spoilt_faces(const CurvedSurface& surface, const Surf
   return spoilt;
 }
 
-// Those that share a node with one of these; sorted.
+// Those that share a corner with one of these; sorted.
 std::vector<std::uint32_t> faces_around(const CurvedSurface& surface, const std::vector<std::uint32_t>& faces) {
-  std::vector<bool> is_node(surface.corners.vertices.size(), false);
-  for (const std::uint32_t f : faces)
-    for (const std::uint32_t v : surface.corners.triangles[f]) is_node[v] = true;
+  FaceMarks marks(surface.corners.triangles.size(), 0);
+  for (const std::uint32_t f : faces) marks[f] = 1;
+  grow(surface.corners, marks, 1);
   std::vector<std::uint32_t> around;
-  for (std::uint32_t f = 0; f < surface.corners.triangles.size(); ++f)
-    if (std::ranges::any_of(surface.corners.triangles[f], [&](std::uint32_t v) { return is_node[v]; }))
-      around.push_back(f);
+  for (std::uint32_t f = 0; f < marks.size(); ++f)
+    if (marks[f] != 0) around.push_back(f);
   return around;
 }
 
