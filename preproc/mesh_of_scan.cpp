@@ -45,13 +45,6 @@ Progress in_half_of_the_time(const Progress& progress) {
   return progress.until(progress.end(), now + (progress.end() - now) / 2);
 }
 
-// Where there is no scan beside the surface, where corner nodes are not its vertices, and where time is short.
-CurveResult curve_on_scan(TetMesh& mesh, const SurfaceMesh& scan, const Progress& progress) {
-  add_mid_edge_nodes(mesh);
-  EdgePlaces to = nearest_on_scan(mesh, TriangleTree(scan));
-  return curve_mid_edge_nodes(mesh, to, progress);
-}
-
 void note_left_out(const Progress& stage, const char* what, StageRecord& record, PipelineResult& result) {
   if (!stage.ran_short()) return;
   result.left_out.emplace_back(what);
@@ -73,6 +66,7 @@ class MeshMaker {
         half_(half),
         layers_of_(layers_of),
         in_scan_(frame_, half ? &half->frame : nullptr) {
+    simplification_.curved = is_to_be_fitted();
     place();
     adapt(stairs);
   }
@@ -91,9 +85,15 @@ class MeshMaker {
   void layer(const Progress& progress);
   void refuse_lost_deviation() const;
   void curve(const Progress& progress);
+  SecondOrderResult fit_until_near(const Progress& progress);
   void curve_surface(const Progress& progress);
   void bring_back();
   const SurfaceMesh& scan() const { return placed_ ? *placed_ : scan_; }
+  // Whether curved triangles take the straight ones' place.
+  bool is_to_be_fitted() const {
+    return options_.order == 2 && options_.simplify && simplification_.method == SimplifyMethod::lattice &&
+           options_.tetrahedralize && !tetrahedralization_.split_boundary;
+  }
 
   const SurfaceMesh& scan_;
   const PipelineOptions& options_;
@@ -287,7 +287,7 @@ void MeshMaker::layer(const Progress& progress) {
     describe(curved, in_scan_, record);
     note_left_out(in_time, "curved sides that are fitted to the scan", record, result_);
   });
-  if (curved.triangles_beyond > 0) refuse_lost_deviation();
+  if (!curved.beyond.empty()) refuse_lost_deviation();
 }
 
 // Where it is a bound; of an aim a warning tells.
@@ -302,15 +302,47 @@ void MeshMaker::refuse_lost_deviation() const {
 }
 
 void MeshMaker::curve(const Progress& progress) {
+  SecondOrderResult curved;
   log_.run("second order", [&](StageRecord& record) {
-    SecondOrderResult curved;
     const Progress in_time = progress.until(progress.end());
-    if (search_ && !half_ && made_.filled.boundary_parent.empty())
-      in_time.improve([&](const Progress& p) { curved = make_second_order(*search_, tetrahedralization_, made_, p); });
-    if (made_.filled.mesh.order() == 1) curved.curved = curve_on_scan(made_.filled.mesh, scan(), in_time);
+    if (search_ && made_.filled.boundary_parent.empty())
+      in_time.improve([&](const Progress& p) { curved = fit_until_near(p); });
+    if (made_.filled.mesh.order() == 1) curved = curve_on_scan(scan(), made_, in_time);
     describe(curved, in_scan_, record);
     note_left_out(in_time, "curved sides that are fitted to the scan", record, result_);
   });
+  const auto* bound = std::get_if<LargestDeviation>(&simplification_.size);
+  if (!made_.simplified.is_of_curved || curved.beyond.empty() || !bound->required) return;
+  throw NotMeshable({.what = "the elements do not allow sides that are as near to the scan as was asked for",
+                     .where = std::to_string(curved.beyond.size()) + " triangles",
+                     .value = {},
+                     .limit = error_text(in_scan_.unit() * bound->distance, 4),
+                     .advice = "a smaller or larger --deviation, --faces instead of it, or a longer --time-limit"});
+}
+
+// What elements take of the deviation, shorter edges there give back.
+SecondOrderResult MeshMaker::fit_until_near(const Progress& progress) {
+  constexpr int most_surfaces = 3;
+  constexpr double most_growth = 1.5;
+  FilledSurface straight = made_;
+  const double most = most_growth * static_cast<double>(made_.surface.triangles.size());
+  SecondOrderResult best = make_second_order(*search_, tetrahedralization_, made_, progress);
+  const bool is_worth_it = straight.simplified.is_of_curved && !half_;  // another surface would move the cut
+  for (int surface = 0; surface < most_surfaces && is_worth_it && !best.beyond.empty(); ++surface)
+    progress.improve([&](const Progress& in_time) {
+      std::vector<ShorterEdges> places;
+      for (const std::uint32_t f : best.beyond) places.push_back(shorter_around(made_.surface, f, least_shortening));
+      const auto simplified = search_->run_again(places, most, straight.surface, in_time);
+      if (!simplified) return;
+      FilledSurface next = straight;
+      next.simplified = *simplified;
+      next.filled = scan2fea::tetrahedralize(next.surface, tetrahedralization_, in_time);
+      SecondOrderResult curved = make_second_order(*search_, tetrahedralization_, next, in_time);
+      if (curved.beyond.size() >= best.beyond.size()) return;
+      best = std::move(curved);
+      made_ = std::move(next);
+    });
+  return best;
 }
 
 // For want of time there are none.

@@ -1,7 +1,7 @@
 #include "preproc/second_order.hpp"
 
 #include "preproc/mesh/error.hpp"
-#include "preproc/surface/curved/faces_beyond.hpp"
+#include "preproc/surface/curved/curved_deviation.hpp"
 #include "preproc/surface/curved/fit_curves.hpp"
 #include "preproc/surface/curved/keep_curved_volume.hpp"
 #include "preproc/surface/simplification/surface_on_scan.hpp"
@@ -52,13 +52,14 @@ CurveResult curve(FittedCurves& fitted, TetMesh& mesh, const Progress& progress)
 
 namespace {
 
-std::size_t count_beyond(const SimplifyResult& simplified, const CurvedSurface& surface) {
-  if (!simplified.keeps_deviation()) return 0;
+// None where none was reached.
+std::vector<std::uint32_t> lost_deviation(const SimplifyResult& simplified, const CurvedSurface& surface) {
+  if (!simplified.keeps_deviation()) return {};
   constexpr double as_told = 1.01;  // faces_beyond is right to a hundredth
   const KeptDeviation kept{simplified.on_scan->scan->deviation_reference(), as_told * simplified.aimed_deviation};
   std::vector<std::uint32_t> all(surface.corners.triangles.size());
   std::iota(all.begin(), all.end(), 0U);
-  return faces_beyond(surface, kept, all, std::vector<bool>(all.size(), false)).size();
+  return faces_beyond(surface, kept, all);
 }
 
 }  // namespace
@@ -77,9 +78,22 @@ SecondOrderResult make_second_order(const Simplification& search, const Tetrahed
   result.parted_elements =
       part_two_sided_elements(filled->mesh, fitted.surface.corners.vertices.size(), made.simplified.line_edges);
   result.curved = curve(fitted, filled->mesh, progress);
-  if (result.curved.eased > 0) result.triangles_beyond = count_beyond(made.simplified, fitted.surface);
+  if (result.curved.eased > 0) result.beyond = lost_deviation(made.simplified, fitted.surface);
   made.filled = std::move(*filled);
   made.surface = std::move(fitted.surface.corners);
+  return result;
+}
+
+SecondOrderResult curve_on_scan(const SurfaceMesh& scan, FilledSurface& made, const Progress& progress) {
+  SecondOrderResult result;
+  TetMesh& mesh = made.filled.mesh;
+  add_mid_edge_nodes(mesh);
+  EdgePlaces to = nearest_on_scan(mesh, TriangleTree(scan));
+  result.curved = curve_mid_edge_nodes(mesh, to, progress);
+  if (!made.simplified.is_of_curved) return result;
+  CurvedSurface surface(made.surface);
+  for (std::size_t i = 0; i < to.edges.size(); ++i) surface.mid[surface.edge(to.edges[i])] = to.places[i];
+  result.beyond = lost_deviation(made.simplified, surface);
   return result;
 }
 
@@ -152,7 +166,7 @@ SecondOrderResult curve_layers(const FittedCurves& fitted, const std::vector<Par
   SecondOrderResult result;
   result.straight_triangles = fitted.straight;
   result.curved = curve_mid_edge_nodes(mesh, to, progress, made.flat_tetrahedra);
-  result.triangles_beyond = count_beyond(made.simplified, with_volume(fitted, wanted, to, made));
+  result.beyond = lost_deviation(made.simplified, with_volume(fitted, wanted, to, made));
   result.curved.volume = total_volume(mesh);
   return result;
 }

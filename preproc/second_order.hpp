@@ -8,6 +8,8 @@
 #include "preproc/volume/mid_edge_nodes.hpp"
 
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 namespace scan2fea {
 
@@ -15,7 +17,7 @@ struct SecondOrderResult {
   CurveResult curved;
   std::size_t straight_triangles = 0;  // see FittedCurves
   std::size_t parted_elements = 0;     // see two_sided_elements.hpp
-  std::size_t triangles_beyond = 0;    // a deviation that is to be kept, since nodes of their edges were eased
+  std::vector<std::uint32_t> beyond;   // triangles that lost a deviation, since nodes of their edges were eased
   bool corners_kept = false;           // since between corners on the scan no tetrahedra came out in time
 };
 
@@ -26,9 +28,13 @@ struct SecondOrderResult {
 SecondOrderResult make_second_order(const Simplification& search, const TetrahedralizeOptions& tetrahedralization,
                                     FilledSurface& made, const Progress& progress = {});
 
-// The same where `made` has layers behind the corners of `fitted`: nodes of edges are as far from their middles as
-// those of the surface's edges that they are parallel to; where vertices made room beside the layers, they are on the
-// scan.
+// With mid-edge nodes on the scan, where there is none beside the surface, where corner nodes are not its vertices, and
+// where time is short.
+SecondOrderResult curve_on_scan(const SurfaceMesh& scan, FilledSurface& made, const Progress& progress = {});
+
+// The same as make_second_order where `made` has layers behind the corners of `fitted`: nodes of edges are as far from
+// their middles as those of the surface's edges that they are parallel to; where vertices made room beside the layers,
+// they are on the scan.
 SecondOrderResult curve_layers(const FittedCurves& fitted, const std::vector<ParallelEdge>& parallel,
                                const SurfaceMesh& scan, FilledSurface& made, const Progress& progress = {});
 

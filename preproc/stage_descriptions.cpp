@@ -168,6 +168,8 @@ void describe(const SimplifyResult& result, const InScan& in_scan, StageRecord& 
   if (!result.size_remark.empty()) record.remarks.push_back(result.size_remark);
   if (result.largest_deviation > 0)
     record.changes.emplace_back("largest_deviation", in_scan.unit() * result.largest_deviation);
+  if (result.is_of_curved)
+    record.remarks.emplace_back("the deviation is that of its curved triangles, of which fewer keep it");
   if (result.largest_deviation > result.aimed_deviation)
     record.remarks.push_back("the deviation is " + rounded(in_scan.unit() * result.largest_deviation) + ", not " +
                              rounded(in_scan.unit() * result.aimed_deviation) +
@@ -253,12 +255,12 @@ void describe(const SecondOrderResult& result, const InScan& in_scan, StageRecor
                     {"eased_edges", static_cast<double>(curved.eased)},
                     {"parted_elements", static_cast<double>(result.parted_elements)},
                     {"straight_triangles", static_cast<double>(result.straight_triangles)},
-                    {"triangles_beyond", static_cast<double>(result.triangles_beyond)},
+                    {"triangles_beyond", static_cast<double>(result.beyond.size())},
                     {"largest_bend", unit * curved.largest_displacement},
                     {"least_scaled_jacobian", curved.least_scaled_jacobian},
                     {"curved_volume", unit * unit * unit * curved.volume}};
-  if (result.triangles_beyond > 0)
-    record.warnings.push_back(std::to_string(result.triangles_beyond) +
+  if (!result.beyond.empty())
+    record.warnings.push_back(std::to_string(result.beyond.size()) +
                               " curved triangles are farther from the scan than was asked for: smaller triangles, or a "
                               "smaller --deviation, keep it");
   if (result.corners_kept)

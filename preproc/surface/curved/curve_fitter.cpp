@@ -18,9 +18,7 @@ namespace {
 using Range = tbb::blocked_range<std::size_t>;
 
 // Six nodes a triangle, of which two are its own: a dozen samples for each.
-constexpr std::size_t most_samples_a_face = 32;
-// Of the mean edge: so that each triangle gets ten samples where the scan's are larger.
-constexpr double longest_scan_edge = 1.0 / 4;
+constexpr double samples_a_face = 32;
 // A sample farther from a triangle than this part of its edges stands for something else.
 constexpr double farthest_of_edge = 0.25;
 
@@ -51,21 +49,14 @@ std::array<double, 3> foot_on(const SixNodeTriangle& x, const Vec3& p, std::arra
 
 CurveFitter::CurveFitter(CurvedSurface& surface, CurvedSurface& cut, const std::vector<std::uint32_t>& patch_of_face,
                          const ReferenceSurface& scan)
-    : surface_(surface),
-      cut_(cut),
-      scan_(scan),
-      mean_edge_(mean_edge_length(surface.corners)),
-      samples_(
-          sample_surface(scan, longest_scan_edge * mean_edge_, most_samples_a_face * surface.corners.triangles.size())),
-      face_of_sample_(samples_.samples.size()),
-      locations_(samples_.samples.size()) {
+    : surface_(surface), cut_(cut), scan_(scan), mean_edge_(mean_edge_length(surface.corners)) {
   for (const Triangle& t : surface.corners.triangles)
     edge_of_face_.push_back(equilateral_edge(area_vector(surface.corners, t).norm() / 2, 1));
   edge_of_node_.assign(surface.nodes(), infinity);
   for (std::size_t f = 0; f < edge_of_face_.size(); ++f)
     for (const std::size_t i : surface.nodes_of(f)) edge_of_node_[i] = std::min(edge_of_node_[i], edge_of_face_[f]);
   follow_surface();
-  start_locations(patch_of_face);
+  sample_scan(patch_of_face);
 }
 
 void CurveFitter::follow_surface() {
@@ -75,7 +66,8 @@ void CurveFitter::follow_surface() {
   }
 }
 
-void CurveFitter::start_locations(const std::vector<std::uint32_t>& patch_of_face) {
+// As many samples for a small face as for a large one, though the scan has no more triangles there.
+void CurveFitter::sample_scan(const std::vector<std::uint32_t>& patch_of_face) {
   const SurfaceMesh fine = in_four(cut_);
   std::vector<std::uint32_t> nearest;
   if (patch_of_face.empty()) {
@@ -88,8 +80,17 @@ void CurveFitter::start_locations(const std::vector<std::uint32_t>& patch_of_fac
                                         mean_edge_ / 2);
   }
   const VertexStars stars(fine);
-  for (std::size_t s = 0; s < face_of_sample_.size(); ++s)
-    face_of_sample_[s] = stars.corners(nearest[samples_.vertex[s]]).front() / 3;
+  const auto face_near = [&](std::uint32_t v) { return stars.corners(nearest[v]).front() / 3; };
+  std::vector<double> count;
+  for (const Triangle& t : scan_.mesh.triangles) {
+    double edge = 0;
+    for (const std::uint32_t v : t) edge += edge_of_face_[face_near(v) / 4] / 3;
+    count.push_back(samples_a_face * area_vector(scan_.mesh, t).norm() / 2 / (equilateral_area * edge * edge));
+  }
+  samples_ = sample_surface(scan_, count);
+  face_of_sample_.resize(samples_.samples.size());
+  locations_.resize(samples_.samples.size());
+  for (std::size_t s = 0; s < face_of_sample_.size(); ++s) face_of_sample_[s] = face_near(samples_.vertex[s]);
 }
 
 void CurveFitter::locate_samples() {

@@ -30,7 +30,7 @@ class CurveFitter {
     std::array<double, 6> right{};
   };
 
-  void start_locations(const std::vector<std::uint32_t>& patch_of_face);
+  void sample_scan(const std::vector<std::uint32_t>& patch_of_face);
   void locate_samples();
   void follow_surface();
   Equations equations_of(std::size_t face, const std::vector<Vec3>& directions) const;

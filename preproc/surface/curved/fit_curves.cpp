@@ -1,7 +1,7 @@
 #include "preproc/surface/curved/fit_curves.hpp"
 
 #include "preproc/surface/curved/curve_fitter.hpp"
-#include "preproc/surface/curved/faces_beyond.hpp"
+#include "preproc/surface/curved/curved_deviation.hpp"
 #include "preproc/surface/curved/keep_curved_volume.hpp"
 #include "preproc/surface/kernel/cut_surface.hpp"
 #include "preproc/surface/kernel/rings.hpp"
@@ -129,6 +129,28 @@ std::vector<std::uint32_t> spoilt_faces(const CurvedSurface& surface, const Surf
   return spoilt;
 }
 
+// Which faces are within the deviation that is to be kept if they are straight.
+class NearerStraight {
+ public:
+  NearerStraight(const CurvedSurface& straight, const KeptDeviation* kept) : straight_(straight), kept_(kept) {}
+
+  // Of these faces, but for those that are straight already. Each is measured once.
+  std::vector<std::uint32_t> of(std::vector<std::uint32_t> faces, const std::vector<bool>& is_straight) {
+    far_.resize(is_straight.size(), false);
+    std::erase_if(faces, [&](std::uint32_t f) { return is_straight[f] || far_[f]; });
+    constexpr double as_told = 1.02;  // bounds of curved faces are right to a hundredth, and so straight ones' come out
+    const KeptDeviation kept{kept_->scan, as_told * kept_->distance};
+    for (const std::uint32_t f : faces_beyond(straight_, kept, faces)) far_[f] = true;
+    std::erase_if(faces, [&](std::uint32_t f) { return far_[f]; });
+    return faces;
+  }
+
+ private:
+  const CurvedSurface& straight_;
+  const KeptDeviation* kept_;
+  std::vector<bool> far_;
+};
+
 // Those that share a corner with one of these; sorted.
 std::vector<std::uint32_t> faces_around(const CurvedSurface& surface, const std::vector<std::uint32_t>& faces) {
   FaceMarks marks(surface.corners.triangles.size(), 0);
@@ -147,17 +169,18 @@ std::size_t settle(const CurvedSurface& straight, const VolumeKeeper& keep_volum
   constexpr int trials = 40;
   const std::size_t count = straight.corners.triangles.size();
   std::vector<bool> is_straight(count, false);
+  NearerStraight nearer(straight, kept);
   std::vector<std::uint32_t> changed(count);
   std::iota(changed.begin(), changed.end(), 0U);
   for (int trial = 0; trial < trials; ++trial) {
     CurvedSurface shifted = fitted;
     keep_volume(directions, shifted);
     std::vector<std::uint32_t> spoilt = spoilt_faces(shifted, straight.corners, changed);
-    if (spoilt.empty() && kept != nullptr) spoilt = faces_beyond(shifted, *kept, changed, is_straight);
+    if (spoilt.empty() && kept != nullptr) spoilt = nearer.of(faces_beyond(shifted, *kept, changed), is_straight);
     if (spoilt.empty() && kept != nullptr && changed.size() < count) {
       changed.resize(count);
       std::iota(changed.begin(), changed.end(), 0U);
-      spoilt = faces_beyond(shifted, *kept, changed, is_straight);
+      spoilt = nearer.of(faces_beyond(shifted, *kept, changed), is_straight);
     }
     if (spoilt.empty()) {
       fitted = std::move(shifted);

@@ -7,8 +7,8 @@
 #pragma once
 
 #include "preproc/mesh/progress.hpp"
+#include "preproc/surface/curved/curved_deviation.hpp"
 #include "preproc/surface/curved/curved_surface.hpp"
-#include "preproc/surface/curved/faces_beyond.hpp"
 #include "preproc/surface/features/feature_net.hpp"
 #include "preproc/surface/features/planes_of_scan.hpp"
 #include "preproc/surface/fit/reference_surface.hpp"
@@ -30,8 +30,8 @@ struct FittedCurves {
 // `surface` is a fitted surface of the scan with its net. Connectivity stays, and so does the volume of each component.
 // Nodes on lines of the net lie on the scan's lines, and those in planes of the scan in these. `keep_corners`: only
 // nodes of edges move. No two triangles meet that the straight ones kept apart, each taken as four plane ones, and no
-// triangle of corners is below 30 degrees that was not so before. `kept`: a deviation that the straight surface has, or
-// null; triangles that would lose it stay straight. Throws Cancelled and OutOfTime. Deterministic for any
+// triangle of corners is below 30 degrees that was not so before. `kept`: a deviation, or null; triangles that are
+// farther from the scan stay straight where they have it so. Throws Cancelled and OutOfTime. Deterministic for any
 // number of threads. About 40 us a triangle.
 FittedCurves fit_curves(const SurfaceMesh& surface, const FeatureNet& net, const ReferenceSurface& scan,
                         const PlanesOfScan& planes, bool keep_corners = false, const KeptDeviation* kept = nullptr,
@@ -46,7 +46,7 @@ std::vector<Vec3> fit_piece(CurvedSurface& surface, const std::vector<bool>& is_
 using VolumeKeeper = std::function<void(const std::vector<Vec3>& directions, CurvedSurface& surface)>;
 
 // The fitted surface with its volumes. Faces that then meet others, whose corners went where they make a needle, or
-// that lose a deviation that is to be kept (null: none), are straight as they were, and so is all of it, where that
+// that lose a deviation that they keep as they were (null: none), are straight, and so is all of it, where that
 // does not end. Returns how many are straight.
 std::size_t settle(const CurvedSurface& straight, const VolumeKeeper& keep_volume, const KeptDeviation* kept,
                    CurvedSurface& fitted, std::vector<Vec3>& directions);

@@ -69,14 +69,12 @@ SurfaceSamples all_samples(const ReferenceSurface& scan, const std::vector<int>&
   return out;
 }
 
-// Stratified sampling: one sample somewhere in each share of the running area (somewhere, not always at its start: the
+// Stratified sampling: one sample somewhere in each unit of a running measure (somewhere, not always at its start: the
 // order of the triangles may be periodic), spread over its triangle. Additive recurrences, of the golden ratio and of
 // the plastic number, take the place of random numbers: even, and reproducible.
-SurfaceSamples thinned_samples(const ReferenceSurface& scan, std::size_t most) {
+template <class MeasureOfTriangle>
+SurfaceSamples stratified_samples(const ReferenceSurface& scan, double unit, const MeasureOfTriangle& measure_of) {
   SurfaceSamples out;
-  out.samples.reserve(most + 1);
-  out.vertex.reserve(most + 1);
-  const double share = scan.area / static_cast<double>(most);
   double stratum = 0;
   double phase = 0.5;
   double passed = 0;
@@ -84,8 +82,9 @@ SurfaceSamples thinned_samples(const ReferenceSurface& scan, std::size_t most) {
   double y = 0.5;
   for (std::uint32_t f = 0; f < scan.mesh.triangles.size(); ++f) {
     const Triangle& t = scan.mesh.triangles[f];
-    passed += area_vector(scan.mesh, t).norm() / 2;
-    for (; (stratum + phase) * share < passed; ++stratum, phase = std::fmod(phase + 0.6180339887498949, 1.0)) {
+    const double area = area_vector(scan.mesh, t).norm() / 2, measure = measure_of(f, area);
+    passed += measure;
+    for (; (stratum + phase) * unit < passed; ++stratum, phase = std::fmod(phase + 0.6180339887498949, 1.0)) {
       x = std::fmod(x + 0.7548776662466927, 1.0);
       y = std::fmod(y + 0.5698402909980532, 1.0);
       const bool beyond = x + y > 1;
@@ -93,7 +92,7 @@ SurfaceSamples thinned_samples(const ReferenceSurface& scan, std::size_t most) {
       const double c = beyond ? 1 - y : y;
       const double a = 1 - b - c;
       out.samples.push_back({a * scan.mesh.vertices[t[0]] + b * scan.mesh.vertices[t[1]] + c * scan.mesh.vertices[t[2]],
-                             scan.face_normals[f], share});
+                             scan.face_normals[f], area / measure * unit});
       out.vertex.push_back(a >= b && a >= c ? t[0] : b >= c ? t[1] : t[2]);
     }
   }
@@ -110,7 +109,13 @@ SurfaceSamples sample_surface(const ReferenceSurface& scan, double longest_edge,
     const auto n = static_cast<std::size_t>(split[f]);
     count += n * n + (n + 1) * (n + 2) / 2 - 3;
   }
-  return count <= most ? all_samples(scan, split, count) : thinned_samples(scan, most);
+  if (count <= most) return all_samples(scan, split, count);
+  const double share = scan.area / static_cast<double>(most);
+  return stratified_samples(scan, share, [](std::uint32_t, double area) { return area; });
+}
+
+SurfaceSamples sample_surface(const ReferenceSurface& scan, const std::vector<double>& count_of_triangle) {
+  return stratified_samples(scan, 1, [&](std::uint32_t f, double) { return count_of_triangle[f]; });
 }
 
 }  // namespace scan2fea

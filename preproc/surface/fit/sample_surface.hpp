@@ -22,4 +22,8 @@ struct SurfaceSamples {
 // space.
 SurfaceSamples sample_surface(const ReferenceSurface& scan, double longest_edge, std::size_t most);
 
+// So many samples of each triangle, as real numbers: spread evenly over its area, which they share, and the fractions
+// over triangles that follow one another.
+SurfaceSamples sample_surface(const ReferenceSurface& scan, const std::vector<double>& count_of_triangle);
+
 }  // namespace scan2fea

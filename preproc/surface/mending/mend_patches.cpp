@@ -56,9 +56,12 @@ std::vector<PatchPlace> PatchMender::mend(std::vector<PatchPlace> places, int ri
     const auto mend_one = [&](std::size_t i) {
       RefinementPatch& patch = batch.patches[i];
       const std::vector<std::uint32_t> around = faces_around(patch);
+      const ShorterEdges& place = batch.places[i].shorter;
+      PatchGoal here = part;
+      here.where = place.where;
       outcomes[i] = how == Mending::improve
-                        ? patch.improve(mesh_, around, scan_.whole, scan_faces[i], net_, part)
-                        : patch.shorten(mesh_, around, scan_.whole, scan_faces[i], net_, part, batch.places[i].shorter);
+                        ? patch.improve(mesh_, around, scan_.whole, scan_faces[i], net_, here)
+                        : patch.shorten(mesh_, around, scan_.whole, scan_faces[i], net_, here, place);
     };
     // An exception (no memory is left) would cancel the loops that other patches are in, which then would go on with
     // half of their results.

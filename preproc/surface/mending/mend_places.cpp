@@ -81,6 +81,28 @@ MendPlacesResult mend_places(SurfaceMesh& mesh, FeatureNet& net, const Reference
   return mend(mender, std::move(left), goal_of(options, scan), progress);
 }
 
+MendPlacesResult bring_faces_within(SurfaceMesh& mesh, FeatureNet& net, const ReferenceSurface& scan,
+                                    const TriangleTree* scan_tree, std::span<const std::uint32_t> faces,
+                                    double deviation, const MendPlacesOptions& options, const Progress& progress) {
+  constexpr double factor = 0.6;
+  check(options);
+  PatchMender mender(mesh, net, scan, scan_tree);
+  std::vector<PatchPlace> places;
+  for (const std::uint32_t f : faces) {
+    const Triangle& t = mesh.triangles[f];
+    places.push_back({{t.begin(), t.end()}, options.limit, shorter_around(mesh, f, factor)});
+  }
+  PatchGoal goal = goal_of(options, scan);
+  goal.for_shape = false;
+  goal.limit = goal.allowed = deviation;
+  goal.elsewhere = options.limit;
+  for (const int rings : {rings_moved, rings_shortened})
+    places = mender.mend(std::move(places), rings, Mending::improve, goal, progress);
+  places = mender.mend(std::move(places), rings_shortened, Mending::shorten, goal, progress);
+  const PatchChanges changes = mender.take_changes();
+  return {changes.patches, changes.inserted, places.size()};
+}
+
 MendPlacesResult mend_tangles(SurfaceMesh& mesh, FeatureNet& net, const ReferenceSurface& scan,
                               const SurfaceDefects& defects, const MendPlacesOptions& options,
                               const Progress& progress) {

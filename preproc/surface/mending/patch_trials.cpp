@@ -130,6 +130,11 @@ bool Surroundings::may_help(const SurfaceMesh& patch) const {
   return answered * far <= most_far * static_cast<double>(scan_->to_answer().size());
 }
 
+double Surroundings::allowance(const Vec3& p) const {
+  if (goal_.elsewhere == 0 || (p - goal_.where.centre).norm() <= goal_.where.radius) return 1;
+  return goal_.elsewhere / goal_.limit;
+}
+
 void Surroundings::find_rim_normals(const SurfaceMesh& patch) {
   const std::vector<Side> sides = sorted_sides(patch);
   std::vector<FeatureEdge> rim;
@@ -264,14 +269,17 @@ void Surroundings::pull(Trial& trial) const {
       std::uint32_t hint = 0;
       for (const Vec3& p : of_scan) {
         const ClosestPoint nearest = tree.closest(p, hint);
+        const double allowed = allowance(p) * near;
         hint = nearest.triangle;
-        if (nearest.squared_distance > near * near) pull_point(patch, held, place_of(on, hint, nearest.point), p, near);
+        if (nearest.squared_distance > allowed * allowed)
+          pull_point(patch, held, place_of(on, hint, nearest.point), p, allowed);
       }
     }
     for (PatchPoint& point : own) {
-      const ClosestPoint nearest = scan_->reference().tree().closest(point_at(patch, point.place), point.scan_face);
+      const Vec3 p = point_at(patch, point.place);
+      const ClosestPoint nearest = scan_->reference().tree().closest(p, point.scan_face);
       point.scan_face = nearest.triangle;
-      pull_point(patch, held, point.place, nearest.point, near);
+      pull_point(patch, held, point.place, nearest.point, allowance(p) * near);
     }
     if (patch.vertices == before) break;
   }
@@ -304,8 +312,9 @@ bool Surroundings::for_each_scan_point(const SurfaceMesh& patch, double distance
   std::uint32_t near = 0;
   for (const Vec3& p : scan_->to_answer()) {
     if (is_within(patch, near, p, distance)) continue;
-    const ClosestPoint nearest = tree.closest(p, near);
+    ClosestPoint nearest = tree.closest(p, near);
     near = nearest.triangle;
+    nearest.squared_distance /= std::pow(allowance(p), 2);
     if (!visit(p, nearest)) return false;
   }
   return true;
@@ -316,8 +325,9 @@ bool Surroundings::for_each_own_point(const SurfaceMesh& patch, const Visit& vis
   const TriangleTree& scan = scan_->reference().tree();
   std::uint32_t hint = scan.leaf_order().front();
   return for_each_sample(patch, [&](std::uint32_t f, const Vec3& p) {
-    const ClosestPoint nearest = scan.closest(p, hint);
+    ClosestPoint nearest = scan.closest(p, hint);
     hint = nearest.triangle;
+    nearest.squared_distance /= std::pow(allowance(p), 2);
     return visit(f, p, nearest);
   });
 }
@@ -379,15 +389,16 @@ void Surroundings::certify(Trial& trial) const {
   const SurfaceMesh& patch = trial.patch;
   const OneSidedDeviation of_patch = bound_one_sided_deviation(patch, scan_->reference(), {.limit = goal_.limit});
   for (std::size_t f = 0; f < trial.deviation.size(); ++f)
-    trial.deviation[f] = std::max(trial.deviation[f], of_patch.upper[f]);
+    trial.deviation[f] = std::max(trial.deviation[f], of_patch.upper[f] / allowance(of_patch.farthest[f]));
   if (!scan_->answered().triangles.empty()) {
     const OneSidedDeviation of_scan =
         bound_one_sided_deviation(scan_->answered(), with_frozen(patch), {.limit = goal_.limit});
     const TriangleTree tree(patch);
     for (std::size_t f = 0; f < of_scan.upper.size(); ++f) {
-      if (!(of_scan.upper[f] > goal_.limit)) continue;
+      const double upper = of_scan.upper[f] / allowance(of_scan.farthest[f]);
+      if (!(upper > goal_.limit)) continue;
       double& deviation = trial.deviation[tree.closest(of_scan.farthest[f]).triangle];
-      deviation = std::max(deviation, of_scan.upper[f]);
+      deviation = std::max(deviation, upper);
     }
   }
   trial.certified = true;

@@ -15,8 +15,11 @@
 namespace scan2fea {
 
 struct PatchGoal {
-  double limit = 0;               // largest deviation, two-sided, model units, that is worked towards
-  double allowed = 0;             // and that does, at least the limit
+  double limit = 0;    // largest deviation, two-sided, model units, that is worked towards
+  double allowed = 0;  // and that does, at least the limit
+  // Where these hold, and the limit elsewhere; 0: they hold everywhere.
+  Ball where = {};
+  double elsewhere = 0;
   double fidelity = 0;            // residual that costs as much as F(eta) = 1 (see shape_fit.hpp), model units
   double least_angle_deg = 35;    // smaller angles are not made, nor made smaller
   std::size_t most_vertices = 0;  // that may be inserted
@@ -99,6 +102,8 @@ class Surroundings {
 
  private:
   void find_rim_normals(const SurfaceMesh& patch);
+  // What is allowed there, over the goal's limit.
+  double allowance(const Vec3& p) const;
 
   struct PatchPoint {
     Location place;
@@ -106,7 +111,7 @@ class Surroundings {
   };
   // Both call visit until it says false, and return whether it did not. Points of the scan that are left to the patch:
   // visit(point, nearest), but for those within the distance of the face of the point before. The patch's own samples:
-  // visit(face, point, nearest of the scan).
+  // visit(face, point, nearest of the scan). Distances are over what is allowed at the point.
   template <class Visit>
   bool for_each_scan_point(const SurfaceMesh& patch, double distance, const Visit& visit) const;
   template <class Visit>

@@ -146,12 +146,13 @@ TargetSize in_model_units(const TargetSize& size, const BoundingBox& scan) {
 
 // What is kept from one surface to the next.
 struct Simplification::State {
+  const SurfaceMesh& scan;
   SimplifyOptions options;
-  SimplifyResult of_scan;             // what is known before any surface is made
-  std::optional<SurfaceMesh> parted;  // the scan with smaller faces, where it has large ones
+  SimplifyResult of_scan = {};             // what is known before any surface is made
+  std::optional<SurfaceMesh> parted = {};  // the scan with smaller faces, where it has large ones
   std::size_t wanted_creases = 0;
   double wanted_triangles = 0;  // 0 where the size is a deviation
-  std::optional<SurfaceSearch> search;
+  std::optional<SurfaceSearch> search = {};
 
   SimplifyResult result(Candidate candidate, SurfaceMesh& surface) const;
 };
@@ -179,13 +180,15 @@ SimplifyResult Simplification::State::result(Candidate candidate, SurfaceMesh& s
 }
 
 Simplification::Simplification(const SurfaceMesh& scan, const SimplifyOptions& options)
-    : state_(std::make_unique<State>()) {
+    : state_(new State{.scan = scan, .options = options}) {
   check_options(options);
   State& state = *state_;
-  state.options = options;
   const TargetSize size = in_model_units(options.size, bounding_box(scan.vertices));
+  TargetSize straight_size = size;  // what that is of straight triangles
+  if (auto* bound = std::get_if<LargestDeviation>(&straight_size); bound != nullptr && options.curved)
+    bound->distance *= SurfaceSearch::least_straight_over_curved;
   const double area = surface_area(scan);
-  const double edge = typical_edge(size, scan, area);
+  const double edge = typical_edge(straight_size, scan, area);
   require_memory_of_triangles(area / (equilateral_area * edge * edge),
                               "a larger --edge-length or --deviation, or fewer --faces");
   Features features = features_of(scan, options);
@@ -204,7 +207,7 @@ Simplification::Simplification(const SurfaceMesh& scan, const SimplifyOptions& o
                         std::back_inserter(too_fine));
   }
   FineCreases fine_creases(features.edges, std::move(too_fine));
-  const CurveTolerance tolerance = tolerance_of_curves(scan, size, features.noise);
+  const CurveTolerance tolerance = tolerance_of_curves(scan, straight_size, features.noise);
   state.parted = with_smaller_faces(scan, options, area, edge, features.edges);
   const SurfaceMesh& mesh = state.parted ? *state.parted : scan;
   std::sort(features.edges.begin(), features.edges.end());
@@ -215,6 +218,7 @@ Simplification::Simplification(const SurfaceMesh& scan, const SimplifyOptions& o
   WantedSurface wanted;
   if (const auto* bound = std::get_if<LargestDeviation>(&size)) {
     wanted.deviation = *bound;
+    wanted.is_of_curved = state.of_scan.is_of_curved = options.curved;
     state.of_scan.aimed_deviation = bound->distance;
   } else {
     wanted.triangles = state.wanted_triangles = wanted_faces(size, scan, area);
@@ -228,7 +232,19 @@ Simplification::Simplification(const SurfaceMesh& scan, const SimplifyOptions& o
 Simplification::~Simplification() = default;
 
 SimplifyResult Simplification::run(SurfaceMesh& surface, const Progress& progress) {
-  return state_->result(state_->search->run(progress), surface);
+  if (!state_->of_scan.is_of_curved) return state_->result(state_->search->run(progress), surface);
+  const Progress::Clock::time_point now = Progress::Clock::now();
+  try {
+    const Progress in_time = progress.until(progress.end(), now + (progress.end() - now) / 4);
+    return state_->result(state_->search->run(in_time), surface);
+  } catch (const NotMeshable&) {
+  }
+  progress.explain("curved triangles come no nearer than straight ones, of which the surface is made");
+  // What curved triangles have not reached, straight ones may: they are mended until they do.
+  SimplifyOptions options = state_->options;
+  options.curved = false;
+  state_ = Simplification(state_->scan, options).state_;
+  return run(surface, progress);
 }
 
 std::optional<SimplifyResult> Simplification::run_again(std::span<const ShorterEdges> places, double most_triangles,

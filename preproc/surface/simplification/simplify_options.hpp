@@ -54,6 +54,9 @@ struct SimplifyOptions {
   TargetSize size = LargestDeviation{.distance = 0.002, .unit = LargestDeviation::Unit::of_diagonal, .required = false};
   Effort effort = Effort::normal;
   Sizing sizing = Sizing::curvature;
+  // Whether a deviation is that of the curved triangles that are fitted afterwards (Simplification::curved), of which
+  // fewer do.
+  bool curved = false;
   double gradation = 0.12;  // largest |grad h| of the edge length h, 0.02 to 1; smaller is smoother
   SizeLimits limits;        // for the `lattice` method
   // Creases and their corners are kept exactly by the `lattice` method, and open borders always are. The angle unset:
@@ -79,6 +82,7 @@ struct SimplifyResult {
   std::size_t faces_after = 0;
   std::size_t crossings_mended = 0;  // pairs of faces that passed through one another before any was mended
   double largest_deviation = 0;      // an upper bound, two-sided, model units; only where the size is a deviation
+  bool is_of_curved = false;         // triangles, that deviation
   double aimed_deviation = 0;        // what it was to be
   std::size_t feature_edges = 0;     // of the scan, that were found or given; the sharp ones of the next two as well
   std::vector<UnsupportedCreases> unsupported_creases;  // taken for folds, roundings or noise (see judge_creases)

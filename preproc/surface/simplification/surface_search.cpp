@@ -10,6 +10,7 @@
 #include "quality/triangle_measures.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -40,6 +41,13 @@ constexpr double few_triangles_of_part = 1000;
 // The share of faces too far that is left to the mending of places: more are cheaper mended by other lengths, all at
 // once. The second is for the last surface, when there is no other way.
 constexpr double few_beyond = 0.08, most_beyond = 0.15;
+// Curved triangles are mended as straight ones, which takes more of them. Where more than the second share of the first
+// ones are too far, the scan bends on a smaller scale than they do: then they are no better than straight ones.
+constexpr double few_curves_beyond = 0.01, most_curves_beyond = 0.05;
+
+// How far straight triangles are from a scan whose curved ones are at the deviation that is wanted, over it: the
+// smoother the scan, the more.
+constexpr std::array straight_over_curved{9.0, 5.0, SurfaceSearch::least_straight_over_curved};
 // Of the faces: where more places are stuck, shorter edges in each cost more than another surface.
 constexpr double most_stuck = 0.01;
 
@@ -75,6 +83,14 @@ double processor_seconds_of_surface(double triangles, std::size_t of_scan, Effor
   return of_effort * (45e-6 * triangles + 2e-6 * static_cast<double>(of_scan));
 }
 
+NotMeshable no_gain_of_curves() {
+  return NotMeshable({.what = "curved triangles come no nearer than straight ones",
+                      .where = {},
+                      .value = {},
+                      .limit = {},
+                      .advice = "straight ones"});
+}
+
 std::string count(double triangles) {
   return std::to_string(std::lround(triangles));
 }
@@ -95,16 +111,16 @@ SurfaceSearch::SurfaceSearch(PreparedScanPointer scan, FineCreases fine_creases,
 }
 
 Candidate SurfaceSearch::run(const Progress& progress) {
-  set_first_sizing(progress);
-  most_to_mend_ = few_beyond;
-  Trial latest = make(!wanted_.deviation, progress), best = latest;
+  most_to_mend_ = wanted_.is_of_curved ? few_curves_beyond : few_beyond;
+  Trial latest = make_first(progress), best = latest;
   first_work_ = work_;
   most_work_ = std::max(most_work * (wanted_.deviation ? first_work_ : wanted_.triangles), work_for_small);
   if (options_.method != SimplifyMethod::lattice) return std::move(best.candidate);
   bool was_by_shape = false;
   int in_vain = 0;
   const auto is_missing = [&] { return wanted_.deviation && wanted_.deviation->required && !holds(best); };
-  while (!order().is_accepted(latest) && (is_missing() || in_vain <= patience(latest.candidate.faces())) &&
+  while (!order().is_accepted(latest) &&
+         ((is_missing() && !wanted_.is_of_curved) || in_vain <= patience(latest.candidate.faces())) &&
          progress.may_improve()) {
     std::vector<double> length = length_;
     const SizingOptions sizing = sizing_;
@@ -139,6 +155,7 @@ Candidate SurfaceSearch::run(const Progress& progress) {
                      : bring_within(best, most_stuck, most_in_vain, in_time);
       mend_shape(best, in_time);
     });
+  if (wanted_.is_of_curved && !holds(best)) throw no_gain_of_curves();
   if (is_missing())
     throw NotMeshable({.what = "the deviation was not reached",
                        .where = {},
@@ -199,8 +216,12 @@ std::vector<bool> SurfaceSearch::held() const {
 
 void SurfaceSearch::set_first_sizing(const Progress& progress) {
   if (wanted_.deviation) {
-    length_ = lengths_for_deviation(scan_->mesh, wanted_.deviation->distance, options_.gradation,
+    length_ = lengths_for_deviation(scan_->mesh, straight_distance(), options_.gradation,
                                     scan_->has_features() ? &scan_->features().cut : nullptr);
+    // What is plane needs none the larger for curves.
+    const double longest = longest_over_deviation * least_straight_over_curved * wanted_.deviation->distance;
+    if (wanted_.is_of_curved)
+      for (double& l : length_) l = std::min(l, longest);
     ask_for_lower_lengths(most_triangles());
     return;
   }
@@ -224,6 +245,21 @@ void SurfaceSearch::set_first_sizing(const Progress& progress) {
     size_remark_ = "boxes, balls and elements across walls need about " + count(sizing_.triangles) +
                    " triangles instead of " + count(wanted_.triangles);
   wanted_.triangles = sizing_.triangles;
+}
+
+// Of curved triangles it is not known before how much larger they may be: much, where the scan is smooth.
+SurfaceSearch::Trial SurfaceSearch::make_first(const Progress& progress) {
+  if (!wanted_.is_of_curved) {
+    set_first_sizing(progress);
+    return make(!wanted_.deviation, progress);
+  }
+  for (const double factor : straight_over_curved) {
+    straight_over_curved_ = factor;
+    set_first_sizing(progress);
+    Trial first = make(false, progress);
+    if (!first.failed() && first.share_beyond <= most_curves_beyond) return first;
+  }
+  throw no_gain_of_curves();
 }
 
 SurfaceSearch::Trial SurfaceSearch::make(bool may_contract, const Progress& progress) {
@@ -324,6 +360,10 @@ bool SurfaceSearch::ask_for_lower_lengths(double most_triangles) {
     sizing_.triangles = wanted_.triangles;  // a few places cost the others little
   }
   return sizing_.triangles <= most_triangles && (work_ == 0 || work_ + sizing_.triangles <= most_work_);
+}
+
+double SurfaceSearch::straight_distance() const {
+  return (wanted_.is_of_curved ? straight_over_curved_ : 1) * wanted_.deviation->distance;
 }
 
 double SurfaceSearch::most_triangles() const {

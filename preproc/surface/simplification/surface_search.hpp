@@ -23,6 +23,7 @@ namespace scan2fea {
 struct WantedSurface {
   double triangles = 0;
   std::optional<LargestDeviation> deviation;
+  bool is_of_curved = false;    // triangles, that deviation
   std::vector<double> longest;  // edges allowed, per vertex of the scan, or empty
 };
 
@@ -31,6 +32,9 @@ class SurfaceSearch {
   // A deviation far below the scan's own facets asks for more triangles than these, over the scan's own; nothing is
   // known there.
   static constexpr double most_of_scan = 32;
+  // How far straight triangles are from a scan whose curved ones are at the deviation that is wanted, over it, at the
+  // least; of less curves are not worth it.
+  static constexpr double least_straight_over_curved = 3;
 
   SurfaceSearch(PreparedScanPointer scan, FineCreases fine_creases, PlanesOfScan planes, WantedSurface wanted,
                 const SimplifyOptions& options);
@@ -63,18 +67,22 @@ class SurfaceSearch {
   using Trial = SurfaceTrial;
 
   void set_first_sizing(const Progress& progress);
+  Trial make_first(const Progress& progress);
   Trial make(bool may_contract, const Progress& progress);
   Trial make_by_shape(const Progress& progress);
   Trial judged(Candidate candidate, const Progress& progress);
   void judge_deviation(Trial& made, const Progress& progress);
+  DeviationBound deviation_of(const Candidate& made, const DeviationReference& scan) const;
   DeviationBound note_deviation(Trial& made) const;
   void bring_within(Trial& made, double share_to_yield, std::size_t in_vain, const Progress& progress) const;
+  void bring_curves_within(Trial& made, const Progress& progress) const;
   void put_on_planes(Trial& made) const;
   void mend_shape(Trial& made, const Progress& progress) const;
   void lower_lengths(const Trial& latest);
   void keep_creases_after(const Trial& latest);
   bool ask_for_lower_lengths(double most_triangles);
   double most_triangles() const;
+  double straight_distance() const;
   TrialOrder order() const { return {wanted_.deviation, sizing_.triangles >= most_triangles()}; }
   bool holds(const Trial& made) const { return order().holds(made); }
 
@@ -88,8 +96,9 @@ class SurfaceSearch {
   std::vector<double> error_factors_;
   std::vector<double> length_;  // per vertex of the scan, as asked for last; empty before something was lowered
   Trial last_;                  // given
-  double most_to_mend_ = 0;     // the share of faces too far that is left to the mending of places
-  double work_ = 0;             // triangles made
+  double straight_over_curved_ = 1;
+  double most_to_mend_ = 0;  // the share of faces too far that is left to the mending of places
+  double work_ = 0;          // triangles made
   double first_work_ = 0;
   double most_work_ = 0;  // triangles that may be made
   std::string size_remark_;

@@ -1,5 +1,7 @@
 // How the search mends a surface that it made: brought within a deviation, put onto planes, places of bad shape.
 #include "preproc/mesh/error_text.hpp"
+#include "preproc/surface/curved/curved_deviation.hpp"
+#include "preproc/surface/curved/fit_curves.hpp"
 #include "preproc/surface/fit/preserve_volume.hpp"
 #include "preproc/surface/kernel/clear_moves.hpp"
 #include "preproc/surface/mending/local_refinement.hpp"
@@ -21,20 +23,38 @@ constexpr double mended_deg = 30;
 // With more places, over the triangles, another surface costs less than the mending of each.
 constexpr double few_bad_places = 0.03;
 
+// Of curved triangles, that may be too far if some of them may stay straight.
+constexpr double few_straight = 0.05;
+
 // Of a deviation, what is left to the shift that restores the volume.
 constexpr double for_volume = 0.005;
 
 }  // namespace
 
+// Per triangle of the surface and of the scan; of curved ones where these count.
+DeviationBound SurfaceSearch::deviation_of(const Candidate& made, const DeviationReference& scan) const {
+  const double distance = wanted_.deviation->distance;
+  if (!wanted_.is_of_curved) return bound_deviation(made.mesh, scan, {.limit = distance});
+  const KeptDeviation kept{scan, distance};
+  const auto bound = [&](const KeptDeviation* to_keep) {
+    const FittedCurves fitted = fit_curves(made.mesh, made.net, made.scan->reference(), planes_, false, to_keep);
+    return bound_curved_deviation(fitted.surface, kept);
+  };
+  DeviationBound free = bound(nullptr);
+  const auto far = std::ranges::count_if(free.to_reference.upper, [&](double upper) { return upper > distance; });
+  // Many are not so few that some straight triangles would help.
+  if (free.holds(distance) || static_cast<double>(far) > few_straight * static_cast<double>(made.faces())) return free;
+  return bound(&kept);
+}
+
 DeviationBound SurfaceSearch::note_deviation(Trial& made) const {
   const PreparedScan& scan = *made.candidate.scan;
   const SurfaceMesh& mesh = made.candidate.mesh;
-  const DeviationBoundOptions options{.limit = wanted_.deviation->distance};
-  DeviationBound bound = bound_deviation(mesh, scan.deviation_reference(), options);
+  DeviationBound bound = deviation_of(made.candidate, scan.deviation_reference());
   // Edges as short as the shape needs came with a scan of other faces.
   made.candidate.largest_deviation = &scan.mesh == &first_scan_->mesh
                                          ? bound.upper()
-                                         : bound_deviation(mesh, first_scan_->deviation_reference(), options).upper();
+                                         : deviation_of(made.candidate, first_scan_->deviation_reference()).upper();
   made.deviation.clear();
   if (!holds(made))
     made.deviation = scan.by_vertex(deviation_at_scan(mesh, scan.reference(), bound),
@@ -45,6 +65,7 @@ DeviationBound SurfaceSearch::note_deviation(Trial& made) const {
 // What the edge lengths leave too far is brought near place by place; then the exact volume.
 void SurfaceSearch::bring_within(Trial& made, double share_to_yield, std::size_t in_vain,
                                  const Progress& progress) const {
+  if (wanted_.is_of_curved) return bring_curves_within(made, progress);
   constexpr int trials = 3;  // the shift that restores the volume takes a little of the deviation, or more
   constexpr double least_angle_deg = 30;
   // What the patches' fits must follow, over the deviation; no looser than mending is (MendOptions), and not so tight
@@ -78,6 +99,43 @@ void SurfaceSearch::bring_within(Trial& made, double share_to_yield, std::size_t
     if (angle < usable_deg && angle < find_shape_defects(made.candidate, usable_deg).sharpest()) return;
   }
   made = std::move(within);
+}
+
+// The same where curved triangles count: those that are too far are brought within the deviation as straight ones.
+void SurfaceSearch::bring_curves_within(Trial& made, const Progress& progress) const {
+  constexpr int rounds = 8;
+  constexpr double least_angle_deg = 30;
+  const double distance = wanted_.deviation->distance;
+  const PreparedScan& scan = *made.candidate.scan;
+  MendPlacesOptions options;
+  options.limit = straight_distance();
+  options.least_angle_deg = least_angle_deg;
+  Trial latest = made;
+  latest.was_mended = true;
+  DeviationBound bound = note_deviation(latest);
+  for (int round = 0; round < rounds && !holds(latest); ++round) {
+    SurfaceMesh& mesh = latest.candidate.mesh;
+    std::vector<std::uint32_t> far;
+    const TriangleTree tree(mesh);
+    for (const OneSidedDeviation* side : {&bound.to_reference, &bound.to_mesh})
+      for (std::size_t f = 0; f < side->upper.size(); ++f)
+        if (side->upper[f] > distance) far.push_back(tree.closest(side->farthest[f]).triangle);
+    std::ranges::sort(far);
+    far.erase(std::ranges::unique(far).begin(), far.end());
+    const MendPlacesResult result =
+        bring_faces_within(mesh, latest.candidate.net, scan.reference(), &scan.deviation_reference().tree(), far,
+                           (1 - for_volume) * distance, options, progress);
+    if (result.mended == 0) break;
+    if (scan.is_closed())
+      preserve_volume_clear(mesh, scan.mesh, held_lines(latest.candidate.net, mesh.vertices.size()));
+    bound = note_deviation(latest);
+    progress.explain("around " + std::to_string(far.size()) + " curved triangles too far from the scan " +
+                     std::to_string(result.mended) + " places were mended by " + std::to_string(result.inserted) +
+                     " vertices more; now at most " + error_text(latest.candidate.largest_deviation / distance, 3) +
+                     " times as far as is wanted");
+    if (latest.candidate.largest_deviation < made.candidate.largest_deviation) made = latest;
+  }
+  if (holds(latest)) made = std::move(latest);
 }
 
 // What is plane on the scan is plane; the volume then comes from what is not, or from the planes as a whole. Vertices
@@ -124,8 +182,7 @@ void SurfaceSearch::mend_shape(Trial& made, const Progress& progress) const {
   Trial mended = made;
   SurfaceMesh& mesh = mended.candidate.mesh;
   MendPlacesOptions options;
-  options.limit =
-      wanted_.deviation ? (1 - for_volume) * wanted_.deviation->distance : made.candidate.fit.largest_distance;
+  options.limit = wanted_.deviation ? (1 - for_volume) * straight_distance() : made.candidate.fit.largest_distance;
   options.least_angle_deg = least;
   if (!(options.limit > 0)) options.limit = mean_edge_length(made.candidate.mesh);
   // What is plane stays plane.

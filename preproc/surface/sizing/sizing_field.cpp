@@ -24,7 +24,7 @@ constexpr double flat_radius = 20;
 // For a deviation d: h^2 = 7.6 d / curvature, within 3 to 36 d. A chord of length h leaves a circle of radius r by
 // h^2 / 8 r; a fitted triangle, whose vertices lie beyond the surface, by less. Details narrower than 4 d count as
 // rough, not as bent.
-constexpr double squared_length_over_deviation = 7.6, shortest_over_deviation = 3, longest_over_deviation = 36;
+constexpr double squared_length_over_deviation = 7.6, shortest_over_deviation = 3;
 constexpr double smoothing_over_deviation = 4;
 
 // What all steps read of the scan.

@@ -57,6 +57,9 @@ double predicted_triangles(const SurfaceMesh& scan, const SizingField& field);
 SizingField compute_sizing_field(const SurfaceMesh& scan, const SizingOptions& options,
                                  const CutSurface* cut = nullptr);
 
+// The longest edges that a deviation asks for, where the scan is plane, over it.
+inline constexpr double longest_over_deviation = 36;
+
 // Per vertex of the scan, the edge lengths with which a fitted surface comes about within `deviation` (model units) of
 // it almost everywhere, by its curvature; see compute_sizing_field for `cut`. Not guaranteed: that it does, or that
 // longer ones would not do. O(n log n); parallel.
