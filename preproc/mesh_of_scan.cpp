@@ -89,10 +89,10 @@ class MeshMaker {
   void curve_surface(const Progress& progress);
   void bring_back();
   const SurfaceMesh& scan() const { return placed_ ? *placed_ : scan_; }
-  // Whether curved triangles take the straight ones' place.
+  // Whether curved triangles take the straight ones' place. Layers, which are flat, want small ones.
   bool is_to_be_fitted() const {
     return options_.order == 2 && options_.simplify && simplification_.method == SimplifyMethod::lattice &&
-           options_.tetrahedralize && !tetrahedralization_.split_boundary;
+           options_.tetrahedralize && !tetrahedralization_.split_boundary && !layers_of_;
   }
 
   const SurfaceMesh& scan_;

@@ -235,9 +235,8 @@ SimplifyResult Simplification::run(SurfaceMesh& surface, const Progress& progres
   if (!state_->of_scan.is_of_curved) return state_->result(state_->search->run(progress), surface);
   const Progress::Clock::time_point now = Progress::Clock::now();
   try {
-    const Progress in_time = progress.until(progress.end(), now + (progress.end() - now) / 4);
-    return state_->result(state_->search->run(in_time), surface);
-  } catch (const NotMeshable&) {
+    return state_->result(state_->search->run(progress.until(now + (progress.end() - now) / 4)), surface);
+  } catch (const NotMeshable&) {  // for want of time, too
   }
   progress.explain("curved triangles come no nearer than straight ones, of which the surface is made");
   // What curved triangles have not reached, straight ones may: they are mended until they do.

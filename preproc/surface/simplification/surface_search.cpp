@@ -21,6 +21,8 @@ namespace {
 constexpr double most_work = 5;
 // A small part may cost so many whatever was wanted: they cost nothing. As many more where its user asks again.
 constexpr double work_for_small = 50000;
+// Curves are fitted to each surface and bounded, which takes several times as long.
+constexpr double curved_work_for_small = work_for_small / 2;
 
 // In one surface, over those that were wanted. A small part may have 8,000, but not more than forty times as many: who
 // asks for 20 does not want 8,000.
@@ -114,7 +116,8 @@ Candidate SurfaceSearch::run(const Progress& progress) {
   most_to_mend_ = wanted_.is_of_curved ? few_curves_beyond : few_beyond;
   Trial latest = make_first(progress), best = latest;
   first_work_ = work_;
-  most_work_ = std::max(most_work * (wanted_.deviation ? first_work_ : wanted_.triangles), work_for_small);
+  most_work_ = std::max(most_work * (wanted_.deviation ? first_work_ : wanted_.triangles),
+                        wanted_.is_of_curved ? curved_work_for_small : work_for_small);
   if (options_.method != SimplifyMethod::lattice) return std::move(best.candidate);
   bool was_by_shape = false;
   int in_vain = 0;
@@ -163,7 +166,8 @@ Candidate SurfaceSearch::run(const Progress& progress) {
                                 " times as far, with " + count(static_cast<double>(best.candidate.faces())) +
                                 " triangles",
                        .limit = {},
-                       .advice = "a larger --deviation, or --faces"});
+                       .advice = std::string(progress.may_improve() ? "" : "a longer --time-limit, ") +
+                                 "a larger --deviation, or --faces"});
   most_work_ = std::max(most_work_, work_ + work_for_small);
   put_on_planes(best);
   return (last_ = std::move(best)).candidate;
@@ -218,8 +222,8 @@ void SurfaceSearch::set_first_sizing(const Progress& progress) {
   if (wanted_.deviation) {
     length_ = lengths_for_deviation(scan_->mesh, straight_distance(), options_.gradation,
                                     scan_->has_features() ? &scan_->features().cut : nullptr);
-    // What is plane needs none the larger for curves.
-    const double longest = longest_over_deviation * least_straight_over_curved * wanted_.deviation->distance;
+    // With nodes in their middles the longest edges have them as near to one another as straight ones have.
+    const double longest = 2 * longest_over_deviation * wanted_.deviation->distance;
     if (wanted_.is_of_curved)
       for (double& l : length_) l = std::min(l, longest);
     ask_for_lower_lengths(most_triangles());

@@ -110,8 +110,8 @@ void SurfaceSearch::bring_curves_within(Trial& made, const Progress& progress) c
   MendPlacesOptions options;
   options.limit = straight_distance();
   options.least_angle_deg = least_angle_deg;
+  made.was_mended = true;
   Trial latest = made;
-  latest.was_mended = true;
   DeviationBound bound = note_deviation(latest);
   for (int round = 0; round < rounds && !holds(latest); ++round) {
     SurfaceMesh& mesh = latest.candidate.mesh;
