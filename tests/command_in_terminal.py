@@ -113,7 +113,7 @@ def check_colours(command, folder):
 
 
 def check_interrupts(command, scan, folder):
-    for word in (b"repairing", b"laying", b"filling"):
+    for word in (b"reading", b"laying", b"filling"):  # repair may end before the bar is drawn again
         status, shown = in_terminal([command, "run", scan, "-o", f"{folder}/cut.inp", "--effort", "high"],
                                     interrupt_when=word)
         lines = screen(shown, 80)
