@@ -83,7 +83,7 @@ class MeshMaker {
   void tetrahedralize(const Progress& progress);
   void slide(const Progress& progress);
   void layer(const Progress& progress);
-  void refuse_lost_deviation() const;
+  void refuse_lost_deviation(const std::string& what, const std::string& where, const char* advice) const;
   void curve(const Progress& progress);
   SecondOrderResult fit_until_near(const Progress& progress);
   void curve_surface(const Progress& progress);
@@ -278,7 +278,10 @@ void MeshMaker::layer(const Progress& progress) {
     layers = add_layers(layered, search_->planes(), tetrahedralization_, is_curved, made_, in_time);
     describe(layers, in_scan_, record);
   });
-  if (layers.lost_deviation > 0) refuse_lost_deviation();
+  constexpr const char* beside_layers =
+      "beside the layers the surface would be farther from the scan than was asked for";
+  constexpr const char* advice = "lower layers, a larger --deviation, or --faces instead of it";
+  if (layers.lost_deviation > 0) refuse_lost_deviation(beside_layers, {}, advice);
   if (!is_curved) return;
   SecondOrderResult curved;
   log_.run("second order", [&](StageRecord& record) {
@@ -287,18 +290,18 @@ void MeshMaker::layer(const Progress& progress) {
     describe(curved, in_scan_, record);
     note_left_out(in_time, "curved sides that are fitted to the scan", record, result_);
   });
-  if (!curved.beyond.empty()) refuse_lost_deviation();
+  if (!curved.beyond.empty()) refuse_lost_deviation(beside_layers, {}, advice);
 }
 
 // Where it is a bound; of an aim a warning tells.
-void MeshMaker::refuse_lost_deviation() const {
+void MeshMaker::refuse_lost_deviation(const std::string& what, const std::string& where, const char* advice) const {
   const auto* bound = std::get_if<LargestDeviation>(&simplification_.size);
   if (bound == nullptr || !bound->required) return;
-  throw NotMeshable({.what = "beside the layers the surface would be farther from the scan than was asked for",
-                     .where = {},
+  throw NotMeshable({.what = what,
+                     .where = where,
                      .value = {},
                      .limit = error_text(in_scan_.unit() * bound->distance, 4),
-                     .advice = "lower layers, a larger --deviation, or --faces instead of it"});
+                     .advice = advice});
 }
 
 void MeshMaker::curve(const Progress& progress) {
@@ -311,24 +314,22 @@ void MeshMaker::curve(const Progress& progress) {
     describe(curved, in_scan_, record);
     note_left_out(in_time, "curved sides that are fitted to the scan", record, result_);
   });
-  const auto* bound = std::get_if<LargestDeviation>(&simplification_.size);
-  if (!made_.simplified.is_of_curved || curved.beyond.empty() || !bound->required) return;
-  throw NotMeshable({.what = "the elements do not allow sides that are as near to the scan as was asked for",
-                     .where = std::to_string(curved.beyond.size()) + " triangles",
-                     .value = {},
-                     .limit = error_text(in_scan_.unit() * bound->distance, 4),
-                     .advice = "a smaller or larger --deviation, --faces instead of it, or a longer --time-limit"});
+  if (made_.simplified.is_of_curved && !curved.beyond.empty())
+    refuse_lost_deviation("the elements do not allow sides that are as near to the scan as was asked for",
+                          std::to_string(curved.beyond.size()) + " triangles",
+                          "a smaller or larger --deviation, --faces instead of it, or a longer --time-limit");
 }
 
 // What elements take of the deviation, shorter edges there give back.
 SecondOrderResult MeshMaker::fit_until_near(const Progress& progress) {
   constexpr int most_surfaces = 3;
   constexpr double most_growth = 1.5;
+  // Of a half another surface would move the cut.
+  if (!made_.simplified.is_of_curved || half_) return make_second_order(*search_, tetrahedralization_, made_, progress);
   FilledSurface straight = made_;
   const double most = most_growth * static_cast<double>(made_.surface.triangles.size());
   SecondOrderResult best = make_second_order(*search_, tetrahedralization_, made_, progress);
-  const bool is_worth_it = straight.simplified.is_of_curved && !half_;  // another surface would move the cut
-  for (int surface = 0; surface < most_surfaces && is_worth_it && !best.beyond.empty(); ++surface)
+  for (int surface = 0; surface < most_surfaces && !best.beyond.empty(); ++surface)
     progress.improve([&](const Progress& in_time) {
       std::vector<ShorterEdges> places;
       for (const std::uint32_t f : best.beyond) places.push_back(shorter_around(made_.surface, f, least_shortening));

@@ -45,17 +45,17 @@ MendPlacesResult mend_places(SurfaceMesh& mesh, FeatureNet& net, const Reference
                              const TriangleTree* scan_tree, std::span<const ShorterEdges> places,
                              const MendPlacesOptions& options, const Progress& progress = {});
 
-// These faces and what of the scan is beside them, as far as their longest edge, brought within a deviation, as far
-// as it goes. Around that the limit does, and angles are not made smaller than the least, nor than they were.
-MendPlacesResult bring_faces_within(SurfaceMesh& mesh, FeatureNet& net, const ReferenceSurface& scan,
-                                    const TriangleTree* scan_tree, std::span<const std::uint32_t> faces,
-                                    double deviation, const MendPlacesOptions& options, const Progress& progress = {});
-
 // The same where faces cross or are inverted, as a lattice leaves a few: `mesh` may do so at these defects. Any sound
 // state is better, however far it is, so that a few places do not cost the rest of the surface. Nothing crosses any
 // more where no place is left.
 MendPlacesResult mend_tangles(SurfaceMesh& mesh, FeatureNet& net, const ReferenceSurface& scan,
                               const SurfaceDefects& defects, const MendPlacesOptions& options,
                               const Progress& progress = {});
+
+// These faces and what of the scan is beside them, as far as their longest edge, brought within a deviation, as far
+// as it goes. Around that the limit does, and angles are not made smaller than the least, nor than they were.
+MendPlacesResult bring_faces_within(SurfaceMesh& mesh, FeatureNet& net, const ReferenceSurface& scan,
+                                    const TriangleTree* scan_tree, std::span<const std::uint32_t> faces,
+                                    double deviation, const MendPlacesOptions& options, const Progress& progress = {});
 
 }  // namespace scan2fea

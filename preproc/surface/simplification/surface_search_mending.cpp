@@ -115,13 +115,7 @@ void SurfaceSearch::bring_curves_within(Trial& made, const Progress& progress) c
   DeviationBound bound = note_deviation(latest);
   for (int round = 0; round < rounds && !holds(latest); ++round) {
     SurfaceMesh& mesh = latest.candidate.mesh;
-    std::vector<std::uint32_t> far;
-    const TriangleTree tree(mesh);
-    for (const OneSidedDeviation* side : {&bound.to_reference, &bound.to_mesh})
-      for (std::size_t f = 0; f < side->upper.size(); ++f)
-        if (side->upper[f] > distance) far.push_back(tree.closest(side->farthest[f]).triangle);
-    std::ranges::sort(far);
-    far.erase(std::ranges::unique(far).begin(), far.end());
+    const std::vector<std::uint32_t> far = triangles_beyond(mesh, bound, distance);
     const MendPlacesResult result =
         bring_faces_within(mesh, latest.candidate.net, scan.reference(), &scan.deviation_reference().tree(), far,
                            (1 - for_volume) * distance, options, progress);
