@@ -29,7 +29,7 @@ bool is_inside(const Vec3& p) {
 
 void expect_right_sides(double noise_of_diagonal) {
   const SampledPart part = angle_bracket(2.5, noise_of_diagonal, 1);
-  const DelaunayCells cells = Delaunay(part.points, point_spacing(part.points, PointNeighbours(part.points))).cells();
+  const DelaunayCells cells = Delaunay(part.points).cells();
   const Primitives found =
       find_primitives(part.points, nearest_in_space(part.points, part.outwards, 20), part.outwards);
   const std::vector<CellSide> sides = sides_by_shapes(part.points, cells, found);

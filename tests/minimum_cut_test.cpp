@@ -21,7 +21,7 @@ TEST(WindingNumber, OneInsideAndNoneOutside) {
 
 TEST(Delaunay, CellsKnowOneAnother) {
   const SurfaceMesh ball = analytic::sphere(1, 2);
-  const DelaunayCells cells = Delaunay(ball.vertices, std::vector<double>(ball.vertices.size(), 1)).cells();
+  const DelaunayCells cells = Delaunay(ball.vertices).cells();
   for (std::uint32_t c = 0; c < cells.corners.size(); ++c)
     for (std::size_t k = 0; k < 4; ++k) {
       const auto& back = cells.neighbours[cells.neighbours[c][k]];
@@ -33,7 +33,7 @@ class MinimumCut : public testing::Test {
  protected:
   std::vector<Triangle> cut(const std::vector<std::vector<Triangle>>& surfaces) const {
     const std::vector<double> spacing = point_spacing(ball_.vertices, PointNeighbours(ball_.vertices));
-    const DelaunayCells cells = Delaunay(ball_.vertices, spacing).cells();
+    const DelaunayCells cells = Delaunay(ball_.vertices).cells();
     std::vector<WoundSurface> wound;
     for (const auto& triangles : surfaces) wound.push_back(wind(ball_.vertices, cells, triangles));
     std::vector<const WoundSurface*> all;

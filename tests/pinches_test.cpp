@@ -19,7 +19,7 @@ class Pinches : public testing::Test {
     std::mt19937 random(1);
     std::uniform_real_distribution<double> place(-1, 1);
     for (int i = 0; i < 500; ++i) points_.emplace_back(place(random), place(random), place(random));
-    cells_ = Delaunay(points_, std::vector<double>(points_.size(), 0.2)).cells();
+    cells_ = Delaunay(points_).cells();
     costs_.gain.assign(cells_.corners.size(), 0.0);
     costs_.price.assign(cells_.corners.size(), {1, 1, 1, 1});
     for (std::uint32_t c = 0; c < cells_.corners.size(); ++c) {

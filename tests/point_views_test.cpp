@@ -130,7 +130,7 @@ TEST(SeenCells, ABallsInsideAndOutside) {
   std::vector<Vec3> normals = ball.vertices;
   normals.push_back(Vec3::Zero());
   const std::vector<double> spacing = point_spacing(points, PointNeighbours(points));
-  const DelaunayCells cells = Delaunay(points, spacing).cells();
+  const DelaunayCells cells = Delaunay(points).cells();
   std::vector<Vec3> scanners(points.size(), Vec3(0, 0, 50));
   const SeenCells seen = see_cells(points, spacing, cells, {.normals = normals, .scanners = scanners, .noise = 0}, 1);
   for (std::size_t c = 0; c < cells.corners.size(); ++c) {

@@ -12,6 +12,7 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 
@@ -79,6 +80,18 @@ TEST(Reconstruct, TheSameForAnyNumberOfThreadsAndEveryTime) {
   EXPECT_EQ(first.surface.vertices, second.surface.vertices);
   EXPECT_EQ(first.surface.triangles, second.surface.triangles);
   EXPECT_EQ(first.choice, second.choice);
+}
+
+// Of a regular cloud all triangles are the best ones: what is taken must not be what lies first in memory.
+TEST(Reconstruct, TheSameWhereManyChoicesWeighTheSame) {
+  const SurfaceMesh torus = analytic::torus(10, 3, 64, 32);
+  const ReconstructResult first = of_vertices(torus);
+  // Every other gap is free, the last ones first.
+  std::vector<std::unique_ptr<std::array<char, 104>>> in_memory(100'000);
+  for (auto& block : in_memory) block = std::make_unique<std::array<char, 104>>();
+  for (std::size_t i = 0; i < in_memory.size(); i += 2) in_memory[i].reset();
+  const ReconstructResult second = of_vertices(torus);
+  EXPECT_EQ(first.surface.triangles, second.surface.triangles);
 }
 
 struct OutlierShares {

@@ -58,7 +58,7 @@ class Search {
 
   // Instead of fronts, a surface through most of the points.
   ConsistentSurface run_again(const ConsistentSurface& before) {
-    cells_ = Delaunay(points_, spacing_).cells();
+    cells_ = Delaunay(points_).cells();
     look();
     for (std::size_t i = 0; i < before.triangles.size(); ++i)
       if (!before.is_made_up[i]) supported_.insert(sorted(before.triangles[i]));
@@ -149,11 +149,11 @@ class Search {
   void make_fronts() {
     constexpr std::size_t few = 50'000;  // beyond, the time of more fronts is better spent elsewhere
     betas_ = points_.size() < few ? std::vector{0.3, 0.52, 0.7, 0.9} : std::vector{0.52, 0.9};
-    Delaunay delaunay(points_, spacing_);
+    Delaunay delaunay(points_);
     progress_("reconstruction", 0.3);
     cells_ = delaunay.cells();
     for (const double beta : betas_) {
-      std::vector<Triangle> front = delaunay.advancing_front({.beta = beta});
+      std::vector<Triangle> front = delaunay.advancing_front(beta);
       for (const Triangle& t : front) supported_.insert(sorted(t));
       orient(points_, front);
       fronts_.push_back(wind(points_, cells_, std::move(front)));

@@ -8,44 +8,62 @@
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 #include <unordered_map>
 
 namespace scan2fea {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+
+// Compared by when it was made; without, CGAL compares cells and vertices by where they lie in memory, another order in
+// every run.
+template <class Base>
+class Stamped : public Base {
+ public:
+  template <class Structure>
+  struct Rebind_TDS {
+    using Other = Stamped<typename Base::template Rebind_TDS<Structure>::Other>;
+  };
+  using Base::Base;
+  using Has_timestamp = CGAL::Tag_true;
+
+  std::size_t time_stamp() const { return time_stamp_; }
+  void set_time_stamp(std::size_t stamp) { time_stamp_ = stamp; }
+
+ private:
+  std::size_t time_stamp_ = std::numeric_limits<std::size_t>::max();  // none yet
+};
+
 // CGAL's own vertices are numbered, too, but forget their numbers when they are copied.
-using VertexBase =
-    CGAL::Triangulation_vertex_base_with_info_3<std::uint32_t, Kernel,
-                                                CGAL::Advancing_front_surface_reconstruction_vertex_base_3<Kernel>>;
-using CellBase = CGAL::Advancing_front_surface_reconstruction_cell_base_3<Kernel>;
+using VertexBase = Stamped<CGAL::Triangulation_vertex_base_with_info_3<
+    std::uint32_t, Kernel, CGAL::Advancing_front_surface_reconstruction_vertex_base_3<Kernel>>>;
+using CellBase = Stamped<CGAL::Advancing_front_surface_reconstruction_cell_base_3<Kernel>>;
 using Triangulation =
     CGAL::Delaunay_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<VertexBase, CellBase>>;
 
-// A triangle that is too long is never a candidate: its radius counts as infinite. Equal radii are told apart by the
-// triangles' numbers, since CGAL orders equal candidates by where they lie in memory.
-struct NotTooLong {
-  template <class Front, class Cell>
-  double operator()(const Front& front, const Cell& cell, int index) const {
-    double longest = 0, widest = 0;
-    std::uint32_t numbers = 0;
-    for (int k = 1; k < 4; ++k) {
-      const auto a = cell->vertex((index + k) & 3), b = cell->vertex((index + k % 3 + 1) & 3);
-      if (a == front.triangulation_3().infinite_vertex()) return front.infinity();
-      longest = std::max(longest, CGAL::squared_distance(a->point(), b->point()));
-      widest = std::max(widest, (*spacing)[a->info()]);
-      numbers += a->info() * 2654435769U ^ a->info() >> 7;
-    }
-    if (longest > factor * factor * widest * widest) return front.infinity();
-    return front.smallest_radius_delaunay_sphere(cell, index) * (1 + 1e-9 * numbers / 4294967296.0);
-  }
+// An edge of the front with how well its best triangle continues it.
+using RatedEdge = Triangulation::Vertex::Radius_ptr_type;
 
-  const std::vector<double>* spacing;
-  double factor;
-};
+// Best first. One triangle may be the best at two edges: those are told apart by their ends.
+auto order_of(const RatedEdge& rated) {
+  const auto& edge = rated.second->first.first;
+  return std::pair(rated.first,
+                   std::minmax({edge.first->vertex(edge.second)->info(), edge.first->vertex(edge.third)->info()}));
+}
 
 }  // namespace
+}  // namespace scan2fea
+
+// The order of the set in which CGAL keeps the edges of a front; its own is that of the pointers.
+template <>
+struct std::less<scan2fea::RatedEdge> {
+  bool operator()(const scan2fea::RatedEdge& a, const scan2fea::RatedEdge& b) const {
+    return scan2fea::order_of(a) < scan2fea::order_of(b);
+  }
+};
+
+namespace scan2fea {
 
 Triangle DelaunayCells::facet(std::uint32_t cell, std::size_t opposite) const {
   const auto& c = corners[cell];
@@ -80,16 +98,14 @@ std::vector<std::uint32_t> DelaunayCells::around(std::uint32_t cell, std::uint32
 
 struct Delaunay::Data {
   Triangulation triangulation;
-  std::vector<double> spacing;
 };
 
-Delaunay::Delaunay(const std::vector<Vec3>& points, std::vector<double> spacing) : data_(std::make_unique<Data>()) {
+Delaunay::Delaunay(const std::vector<Vec3>& points) : data_(std::make_unique<Data>()) {
   std::vector<std::pair<Kernel::Point_3, std::uint32_t>> numbered;
   numbered.reserve(points.size());
   for (const Vec3& p : points)
     numbered.emplace_back(Kernel::Point_3(p.x(), p.y(), p.z()), static_cast<std::uint32_t>(numbered.size()));
   data_->triangulation.insert(numbered.begin(), numbered.end());
-  data_->spacing = std::move(spacing);
 }
 
 Delaunay::~Delaunay() = default;
@@ -115,13 +131,12 @@ DelaunayCells Delaunay::cells() const {
   return cells;
 }
 
-std::vector<Triangle> Delaunay::advancing_front(const FrontSettings& settings) const {
+std::vector<Triangle> Delaunay::advancing_front(double beta) const {
   if (is_flat()) return {};
   Triangulation copy(data_->triangulation);  // in whose cells the front keeps its state
-  CGAL::Advancing_front_surface_reconstruction<Triangulation, NotTooLong> front(
-      copy, NotTooLong{&data_->spacing, settings.longest_edge});
+  CGAL::Advancing_front_surface_reconstruction<Triangulation> front(copy);
   constexpr double no_bound = 5;  // CGAL 5.5 does not read it
-  front.run(no_bound, settings.beta);
+  front.run(no_bound, beta);
   std::vector<Triangle> triangles;
   const auto& surface = front.triangulation_data_structure_2();
   for (auto f = surface.faces_begin(); f != surface.faces_end(); ++f) {

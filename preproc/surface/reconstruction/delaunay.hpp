@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <vector>
 
@@ -26,16 +25,10 @@ struct DelaunayCells {
   std::vector<std::uint32_t> around(std::uint32_t cell, std::uint32_t a, std::uint32_t b) const;
 };
 
-struct FrontSettings {
-  double beta = 0.52;  // radians: triangles that bend by less than this are compared by their radius alone
-  double longest_edge = std::numeric_limits<double>::infinity();  // in spacings of the corner where that is largest
-};
-
 class Delaunay {
  public:
-  // `spacing` of each point, model units. Points should differ. O(n log n): about 10 us and 1 kB a point; CGAL offers
-  // no way to stop it.
-  Delaunay(const std::vector<Vec3>& points, std::vector<double> spacing);
+  // Points should differ. O(n log n): about 10 us and 1 kB a point; CGAL offers no way to stop it.
+  explicit Delaunay(const std::vector<Vec3>& points);
   ~Delaunay();
   Delaunay(const Delaunay&) = delete;
   Delaunay& operator=(const Delaunay&) = delete;
@@ -47,8 +40,9 @@ class Delaunay {
 
   // A front from which triangles are added one by one, those first that continue it most smoothly, or else have the
   // least radius: an oriented manifold, mostly with borders, of components each of which may face inwards, and outwards
-  // the next time; but the same triangles in the same order. Not all points need be used. About 10 us a point.
-  std::vector<Triangle> advancing_front(const FrontSettings& settings) const;
+  // the next time; but the same triangles in the same order. Not all points need be used. Triangles that bend by less
+  // than `beta`, radians, are compared by their radius alone. About 10 us a point.
+  std::vector<Triangle> advancing_front(double beta) const;
 
  private:
   struct Data;
