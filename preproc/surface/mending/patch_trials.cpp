@@ -102,6 +102,14 @@ Location place_of(const SurfaceMesh& mesh, std::uint32_t face, const Vec3& p) {
   return place;
 }
 
+// Of more than two faces: a flip in a patch may join two vertices of its rim that the surface around joins, too.
+bool has_crowded_edge(const SurfaceMesh& mesh) {
+  const std::vector<Side> sides = sorted_sides(mesh);
+  for (std::size_t i = 2; i < sides.size(); ++i)
+    if (sides[i].edge == sides[i - 2].edge) return true;
+  return false;
+}
+
 }  // namespace
 
 std::vector<FeatureEdge> Trial::edges_on_lines() const {
@@ -415,9 +423,11 @@ void Surroundings::set_merit(Trial& trial) const {
 }
 
 bool Surroundings::is_clear(const Trial& trial) const {
+  const SurfaceMesh all = with_frozen(trial.patch);
+  if (has_crowded_edge(all)) return false;
   std::vector<std::uint32_t> own(trial.patch.triangles.size());
   std::iota(own.begin(), own.end(), 0U);
-  return find_self_intersections(with_frozen(trial.patch), own).empty();
+  return find_self_intersections(all, own).empty();
 }
 
 }  // namespace scan2fea
