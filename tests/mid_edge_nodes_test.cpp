@@ -1,6 +1,7 @@
 #include "preproc/volume/mid_edge_nodes.hpp"
 
 #include "preproc/volume/mid_edge_relocation.hpp"
+#include "preproc/volume/tet_quality.hpp"
 #include "preproc/volume/tetrahedralize.hpp"
 #include "preproc/volume/two_sided_elements.hpp"
 #include "quality/jacobian_bound.hpp"
@@ -130,16 +131,22 @@ TEST(CurvedMidEdgeNodes, AScanTooFarAwayIsLeftAlone) {
   EXPECT_EQ(mesh.nodes, straight);
 }
 
-TEST(TwoSidedElements, ArePartedAndTheBoundaryStays) {
-  // A regular tetrahedron on a tetrahedron: the outer two sides of each meet at an edge of the boundary.
+// A regular tetrahedron on a tetrahedron, stretched: the outer two sides of each meet at an edge of the boundary.
+TetMesh two_tetrahedra(double stretch) {
   TetMesh mesh;
   mesh.nodes = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}, {5. / 3, 5. / 3, -5. / 3}};
+  for (Vec3& p : mesh.nodes) p.z() *= stretch;
   mesh.tetrahedra = {{0, 1, 3, 2}, {0, 1, 2, 4}};
   for (Tetrahedron& t : mesh.tetrahedra) {
     const Vec3& a = mesh.nodes[t[0]];
     if ((mesh.nodes[t[1]] - a).cross(mesh.nodes[t[2]] - a).dot(mesh.nodes[t[3]] - a) < 0) std::swap(t[0], t[1]);
   }
   mesh.boundary = find_boundary(mesh.tetrahedra);
+  return mesh;
+}
+
+TEST(TwoSidedElements, ArePartedAndTheBoundaryStays) {
+  TetMesh mesh = two_tetrahedra(1);
   const SurfaceMesh before = boundary_surface(mesh);
   const double volume = total_volume(mesh);
   std::vector<std::array<std::uint32_t, 2>> creases;
@@ -155,6 +162,19 @@ TEST(TwoSidedElements, ArePartedAndTheBoundaryStays) {
   std::vector<int> sides(mesh.tetrahedra.size(), 0);
   for (const BoundaryFace f : mesh.boundary) ++sides[f.tetrahedron];
   EXPECT_LE(*std::max_element(sides.begin(), sides.end()), 1);
+}
+
+// What is parted is to be curved, for which it needs a quality of its own.
+TEST(TwoSidedElements, LeaveNoneBehindThatIsTooPoorToBeCurved) {
+  std::size_t parted = 0;
+  for (double stretch = 0.3; stretch < 3; stretch += 0.02) {
+    TetMesh mesh = two_tetrahedra(stretch);
+    if (part_two_sided_elements(mesh, 5, {}) == 0) continue;
+    ++parted;
+    for (const Tetrahedron& t : mesh.tetrahedra)
+      EXPECT_GE(goal_quality(mesh.nodes[t[0]], mesh.nodes[t[1]], mesh.nodes[t[2]], mesh.nodes[t[3]]), 0.9) << stretch;
+  }
+  EXPECT_GT(parted, 10U);
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ std::size_t part_two_sided_elements(TetMesh& mesh, std::size_t kept,
   const auto first_new = static_cast<std::uint32_t>(complex.node_count());
   for (std::uint32_t t = 0; t < complex.slot_count(); ++t)
     if (complex.alive(t) && is_two_sided(complex.element(t), creases))
-      parted += insertion.mend(complex, t, std::max(least_of_before, least_quality / complex.quality(t)));
+      parted += insertion.mend(complex, t, least_of_before, least_quality);
   if (parted == 0) return 0;
   std::vector<std::uint32_t> around, star;
   StarFaces faces;

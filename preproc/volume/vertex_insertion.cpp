@@ -47,7 +47,7 @@ std::optional<std::uint32_t> locate(const TetComplex& complex, std::uint32_t t, 
 
 }  // namespace
 
-bool VertexInsertion::mend(TetComplex& complex, std::uint32_t bad, double gain) {
+bool VertexInsertion::mend(TetComplex& complex, std::uint32_t bad, double gain, double least) {
   const TetComplex::Element element = complex.element(bad);
   std::array<Vec3, 4> p;
   for (std::size_t k = 0; k < 4; ++k) p[k] = complex.node(element.corners[k]);
@@ -60,19 +60,19 @@ bool VertexInsertion::mend(TetComplex& complex, std::uint32_t bad, double gain) 
     for (const double depth : {0.45, 0.7}) {
       const Vec3 place = (a + b + c) / 3 + depth * mean_edge * inwards;
       const auto holds = locate(complex, bad, place);
-      if (holds && insert(complex, bad, *holds, place, gain)) return true;
+      if (holds && insert(complex, bad, *holds, place, gain, least)) return true;
     }
   }
-  if (insert(complex, bad, bad, (p[0] + p[1] + p[2] + p[3]) / 4, gain)) return true;
+  if (insert(complex, bad, bad, (p[0] + p[1] + p[2] + p[3]) / 4, gain, least)) return true;
   TetComplex::Ring ring;
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t j = i + 1; j < 4; ++j)
-      if (complex.ring(bad, i, j, ring) && insert(complex, bad, bad, (p[i] + p[j]) / 2, gain)) return true;
+      if (complex.ring(bad, i, j, ring) && insert(complex, bad, bad, (p[i] + p[j]) / 2, gain, least)) return true;
   return false;
 }
 
-bool VertexInsertion::insert(TetComplex& complex, std::uint32_t bad, std::uint32_t holds_place, Vec3 place,
-                             double gain) {
+bool VertexInsertion::insert(TetComplex& complex, std::uint32_t bad, std::uint32_t holds_place, Vec3 place, double gain,
+                             double least) {
   take_delaunay_cavity(complex, holds_place, place);
   if (!complex.marked(bad)) {
     complex.mark(bad);
@@ -91,8 +91,9 @@ bool VertexInsertion::insert(TetComplex& complex, std::uint32_t bad, std::uint32
   // Polishing rarely more than doubles.
   if (after <= 0 || after < 0.4 * before) return false;
   smooth_by_entropy(star_, place, after);
-  if (after < before * gain) relocate_max_min(star_, place, after, 4);
-  if (after < before * gain) return false;
+  const double wanted = std::max(before * gain, least);
+  if (after < wanted) relocate_max_min(star_, place, after, 4);
+  if (after < wanted) return false;
 
   const std::uint32_t vertex = complex.add_node(place);
   fresh_.clear();

@@ -15,9 +15,9 @@ class VertexInsertion {
   // centroid, the middles of its interior edges. At each, the Delaunay cavity is grown or shrunk face by face while
   // that lifts the worst of the elements that join its faces to the vertex; vertices left without elements vanish; then
   // the vertex is moved to where the worst is best. The first that lifts the cavity's least quality by the factor
-  // `gain` is kept. Source: Klingner and Shewchuk, "Aggressive tetrahedral mesh improvement", 2007, for the idea.
-  // Some 100 us where nothing is found.
-  bool mend(TetComplex& complex, std::uint32_t bad, double gain);
+  // `gain`, and to `least`, is kept. Source: Klingner and Shewchuk, "Aggressive tetrahedral mesh improvement", 2007,
+  // for the idea. Some 100 us where nothing is found.
+  bool mend(TetComplex& complex, std::uint32_t bad, double gain, double least = 0);
 
  private:
   struct CavityFace {
@@ -26,7 +26,7 @@ class VertexInsertion {
     double quality;
   };
 
-  bool insert(TetComplex& complex, std::uint32_t bad, std::uint32_t holds_place, Vec3 place, double gain);
+  bool insert(TetComplex& complex, std::uint32_t bad, std::uint32_t holds_place, Vec3 place, double gain, double least);
   void take_delaunay_cavity(const TetComplex& complex, std::uint32_t holds_place, const Vec3& place);
   void find_faces(const TetComplex& complex, const Vec3& place);
   void improve_cavity(const TetComplex& complex, std::uint32_t bad, std::uint32_t holds_place, const Vec3& place);
