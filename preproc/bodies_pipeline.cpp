@@ -79,7 +79,7 @@ class BodiesPipeline {
   void fill(StageRecord& record);
   TetMesh filled(StageRecord& record);
   void curve(StageRecord& record);
-  CurveResult curve_as_fitted(TetMesh& mesh);
+  void curve_as_fitted(TetMesh& mesh, SecondOrderResult& result);
   EdgePlaces nearest_places(const TetMesh& mesh) const;
   void add_sets(const TetMesh& mesh);
 
@@ -341,7 +341,8 @@ void BodiesPipeline::curve(StageRecord& record) {
   add_mid_edge_nodes(mesh);
   SecondOrderResult result;
   if (curved_) {
-    result = {.curved = curve_as_fitted(mesh), .straight_triangles = curved_->straight};
+    result.straight_triangles = curved_->straight;
+    curve_as_fitted(mesh, result);
   } else {
     EdgePlaces to = nearest_places(mesh);
     result.curved = curve_mid_edge_nodes(mesh, to);
@@ -356,21 +357,20 @@ void BodiesPipeline::curve(StageRecord& record) {
 }
 
 // Nodes that are eased change volumes a little, which the other nodes of edges take up.
-CurveResult BodiesPipeline::curve_as_fitted(TetMesh& mesh) {
+void BodiesPipeline::curve_as_fitted(TetMesh& mesh, SecondOrderResult& result) {
   CurvedSurface& surface = curved_->surface;
   EdgePlaces to{surface.edges, surface.mid};
-  CurveResult result = curve_mid_edge_nodes(mesh, to);
-  if (result.eased == 0) return result;
+  result.curved = curve_mid_edge_nodes(mesh, to);
+  if (result.curved.eased == 0) return;
   const std::size_t corners = surface.corners.vertices.size();
   std::fill_n(curved_->directions.begin(), corners, Vec3::Zero());
   for (std::size_t e = 0; e < to.places.size(); ++e)
     if (surface.mid[e] != to.places[e]) curved_->directions[corners + e].setZero();
   surface.mid = std::move(to.places);
-  keep_volumes_of_bodies(straight_, curved_->directions, surface);
+  result.keeps_volume = keep_volumes_of_bodies(straight_, curved_->directions, surface);
   to.places = surface.mid;
   place_mid_edge_nodes(mesh, to);
-  result.volume = total_volume(mesh);
-  return result;
+  result.curved.volume = total_volume(mesh);
 }
 
 // Where there was no time, or no way, to fit them. Of edges that stand for lines of the scans, the nodes lie on these

@@ -64,13 +64,14 @@ void fit_sheet(const MadeSheet& sheet, CurvedBodies& bodies, std::vector<bool>& 
 
 }  // namespace
 
-void keep_volumes_of_bodies(const BodyComplex& made, const std::vector<Vec3>& directions, CurvedSurface& surface) {
+bool keep_volumes_of_bodies(const BodyComplex& made, const std::vector<Vec3>& directions, CurvedSurface& surface) {
   std::uint32_t bodies = 0;
   for (const Sides& sides : made.sides) {
     bodies = std::max(bodies, sides.behind + 1);
     if (sides.front != no_body) bodies = std::max(bodies, sides.front + 1);
   }
   std::vector<bool> is_settled(surface.nodes(), false);
+  bool all_kept = true;
   // The last body first, as of the straight surfaces.
   for (std::uint32_t b = bodies; b-- > 0;) {
     std::vector<bool> is_between(surface.nodes(), false);
@@ -82,16 +83,19 @@ void keep_volumes_of_bodies(const BodyComplex& made, const std::vector<Vec3>& di
     CurvedSurface own(own_vertices(surface.corners.vertices, triangles_of_body(made, b)).mesh);
     const std::vector<std::size_t> nodes = nodes_in(surface, own, straight.of_all);
     for (std::size_t i = 0; i < nodes.size(); ++i) own.node(i) = surface.node(nodes[i]);
+    bool is_kept = false;
     for (const bool between : {true, false}) {
       std::vector<Vec3> free(nodes.size(), Vec3::Zero());
       for (std::size_t i = 0; i < nodes.size(); ++i)
         if (is_between[nodes[i]] == between && !is_settled[nodes[i]]) free[i] = directions[nodes[i]];
-      keep_curved_volume(own, volumes, free);
+      is_kept = keep_curved_volume(own, volumes, free);
     }
+    all_kept = all_kept && is_kept;
     for (std::size_t i = 0; i < nodes.size(); ++i) surface.node(nodes[i]) = own.node(i);
     for (std::size_t i = 0; i < is_between.size(); ++i)
       if (is_between[i]) is_settled[i] = true;
   }
+  return all_kept;
 }
 
 CurvedBodies fit_bodies(const BodyComplex& made, const FittedCurves& outside, const std::vector<Vec3>& outside_before,
@@ -102,7 +106,7 @@ CurvedBodies fit_bodies(const BodyComplex& made, const FittedCurves& outside, co
   take_outside(outside, outside_before, bodies, is_given);
   for (const MadeSheet& sheet : sheets) fit_sheet(sheet, bodies, is_given, progress);
   const auto keep_volumes = [&](const std::vector<Vec3>& directions, CurvedSurface& shifted) {
-    keep_volumes_of_bodies(made, directions, shifted);
+    return keep_volumes_of_bodies(made, directions, shifted);
   };
   bodies.straight = settle(straight, keep_volumes, nullptr, bodies.surface, bodies.directions);
   return bodies;

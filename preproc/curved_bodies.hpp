@@ -27,6 +27,7 @@ CurvedBodies fit_bodies(const BodyComplex& made, const FittedCurves& outside, co
                         std::span<const MadeSheet> sheets, const Progress& progress = {});
 
 // Moves nodes along their directions until each body has again the volume that it has in `made`.
-void keep_volumes_of_bodies(const BodyComplex& made, const std::vector<Vec3>& directions, CurvedSurface& surface);
+[[nodiscard]] bool keep_volumes_of_bodies(const BodyComplex& made, const std::vector<Vec3>& directions,
+                                          CurvedSurface& surface);
 
 }  // namespace scan2fea

@@ -31,21 +31,20 @@ std::optional<TetrahedralizeResult> filled_anew(const SurfaceMesh& surface,
 
 // Nodes that are eased change the volume a little, which the other nodes of edges take up: by so little that no element
 // suffers. (Corners would count for nothing: their shape functions' integrals are zero.)
-CurveResult curve(FittedCurves& fitted, TetMesh& mesh, const Progress& progress) {
+void curve(FittedCurves& fitted, TetMesh& mesh, const Progress& progress, SecondOrderResult& result) {
   add_mid_edge_nodes(mesh);
   EdgePlaces to{fitted.surface.edges, fitted.surface.mid};
-  CurveResult result = curve_mid_edge_nodes(mesh, to, progress);
-  if (result.eased == 0) return result;
+  result.curved = curve_mid_edge_nodes(mesh, to, progress);
+  if (result.curved.eased == 0) return;
   const std::size_t corners = fitted.surface.corners.vertices.size();
   std::fill_n(fitted.directions.begin(), corners, Vec3::Zero());
   for (std::size_t e = 0; e < to.places.size(); ++e)
     if (fitted.surface.mid[e] != to.places[e]) fitted.directions[corners + e].setZero();
   fitted.surface.mid = std::move(to.places);
-  keep_curved_volume(fitted.surface, fitted.volumes, fitted.directions);
+  result.keeps_volume = keep_curved_volume(fitted.surface, fitted.volumes, fitted.directions);
   to.places = fitted.surface.mid;
   place_mid_edge_nodes(mesh, to);
-  result.volume = total_volume(mesh);
-  return result;
+  result.curved.volume = total_volume(mesh);
 }
 
 }  // namespace
@@ -77,7 +76,7 @@ SecondOrderResult make_second_order(const Simplification& search, const Tetrahed
   result.straight_triangles = fitted.straight;
   result.parted_elements =
       part_two_sided_elements(filled->mesh, fitted.surface.corners.vertices.size(), made.simplified.line_edges);
-  result.curved = curve(fitted, filled->mesh, progress);
+  curve(fitted, filled->mesh, progress, result);
   if (result.curved.eased > 0) result.beyond = lost_deviation(made.simplified, fitted.surface);
   made.filled = std::move(*filled);
   made.surface = std::move(fitted.surface.corners);
@@ -133,7 +132,7 @@ PlacedEdges places_of(const FittedCurves& fitted, const std::vector<ParallelEdge
 // What easing has taken of the volume, the other nodes of edges take up, along the directions that their edge of the
 // fitted surface has.
 CurvedSurface with_volume(const FittedCurves& fitted, const PlacedEdges& wanted, const EdgePlaces& placed,
-                          FilledSurface& made) {
+                          FilledSurface& made, SecondOrderResult& result) {
   CurvedSurface surface(made.surface);
   std::vector<Vec3> directions(surface.nodes(), Vec3::Zero());
   const std::size_t corners = surface.corners.vertices.size(), fitted_corners = fitted.surface.corners.vertices.size();
@@ -146,7 +145,7 @@ CurvedSurface with_volume(const FittedCurves& fitted, const PlacedEdges& wanted,
     if (as_wanted.parent && placed.places[i] == as_wanted.place)
       directions[corners + e] = fitted.directions[fitted_corners + fitted.surface.edge(*as_wanted.parent)];
   }
-  keep_curved_volume(surface, fitted.volumes, std::move(directions));
+  result.keeps_volume = keep_curved_volume(surface, fitted.volumes, std::move(directions));
   place_mid_edge_nodes(made.filled.mesh, {surface.edges, surface.mid});
   return surface;
 }
@@ -166,7 +165,7 @@ SecondOrderResult curve_layers(const FittedCurves& fitted, const std::vector<Par
   SecondOrderResult result;
   result.straight_triangles = fitted.straight;
   result.curved = curve_mid_edge_nodes(mesh, to, progress, made.flat_tetrahedra);
-  result.beyond = lost_deviation(made.simplified, with_volume(fitted, wanted, to, made));
+  result.beyond = lost_deviation(made.simplified, with_volume(fitted, wanted, to, made, result));
   result.curved.volume = total_volume(mesh);
   return result;
 }

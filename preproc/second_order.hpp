@@ -18,6 +18,7 @@ struct SecondOrderResult {
   std::size_t straight_triangles = 0;  // see FittedCurves
   std::size_t parted_elements = 0;     // see two_sided_elements.hpp
   std::vector<std::uint32_t> beyond;   // triangles that lost a deviation, since nodes of their edges were eased
+  bool keeps_volume = true;            // else too few nodes were left to take up what easing took
   bool corners_kept = false;           // since between corners on the scan no tetrahedra came out in time
 };
 

@@ -263,6 +263,10 @@ void describe(const SecondOrderResult& result, const InScan& in_scan, StageRecor
     record.warnings.push_back(std::to_string(result.beyond.size()) +
                               " curved triangles are farther from the scan than was asked for: smaller triangles, or a "
                               "smaller --deviation, keep it");
+  if (!result.keeps_volume)
+    record.warnings.emplace_back(
+        "the curved elements do not enclose the scan's volume: for the elements' sake nodes went back that gave it; "
+        "smaller triangles (--faces, --edge-length) keep it");
   if (result.corners_kept)
     record.remarks.emplace_back("corners stayed where they were: with them on the scan no tetrahedra came out in time");
 }

@@ -119,6 +119,31 @@ TEST(FitCurves, KeepsTheVolumeToRounding) {
   EXPECT_EQ(made.curves.straight, 0U);
 }
 
+// All of a thin disc whose side is facets as wide as triangles lies in planes, but for the middles of some chords of
+// its rims, which would take volume that nothing gives back.
+TEST(FitCurves, KeepsTheVolumeWhereNothingElseCanMove) {
+  for (const int sides : {24, 48, 96}) {
+    const SurfaceMesh scan = analytic::cylinder(1, 0.02, sides, 1);
+    const Made made = fitted(scan, 2000);
+    EXPECT_NEAR(volume_of(made.curves.surface) / enclosed_volume(scan), 1, 1e-8) << sides;
+  }
+}
+
+TEST(FitCurves, WhatCannotKeepTheVolumeStaysStraight) {
+  const CurvedSurface straight(analytic::sphere(1, 2));
+  CurvedSurface curves = straight;
+  for (Vec3& p : curves.mid) p.normalize();
+  std::vector<Vec3> directions(curves.nodes(), Vec3::Zero());
+  const std::vector<double> volumes = volumes_of_components(straight.corners);
+  CurvedSurface moved = curves;
+  EXPECT_FALSE(keep_curved_volume(moved, volumes, directions));
+  const auto keep = [&](const std::vector<Vec3>& along, CurvedSurface& shifted) {
+    return keep_curved_volume(shifted, volumes, along);
+  };
+  EXPECT_EQ(settle(straight, keep, nullptr, curves, directions), straight.corners.triangles.size());
+  EXPECT_EQ(curves.mid, straight.mid);
+}
+
 // The middle of a rim's chord lies in the end face, which is no farther from it than nothing.
 TEST(FitCurves, NodesOfARimLieOnItsLine) {
   const Made made = fitted(analytic::cylinder(1, 2, 160, 60), 1500);

@@ -174,7 +174,7 @@ std::size_t settle(const CurvedSurface& straight, const VolumeKeeper& keep_volum
   std::iota(changed.begin(), changed.end(), 0U);
   for (int trial = 0; trial < trials; ++trial) {
     CurvedSurface shifted = fitted;
-    keep_volume(directions, shifted);
+    const bool keeps_volume = keep_volume(directions, shifted);
     std::vector<std::uint32_t> spoilt = spoilt_faces(shifted, straight.corners, changed);
     if (spoilt.empty() && kept != nullptr) spoilt = nearer.of(faces_beyond(shifted, *kept, changed), is_straight);
     if (spoilt.empty() && kept != nullptr && changed.size() < count) {
@@ -183,6 +183,7 @@ std::size_t settle(const CurvedSurface& straight, const VolumeKeeper& keep_volum
       spoilt = nearer.of(faces_beyond(shifted, *kept, changed), is_straight);
     }
     if (spoilt.empty()) {
+      if (!keeps_volume) break;
       fitted = std::move(shifted);
       return static_cast<std::size_t>(std::ranges::count(is_straight, true));
     }
@@ -210,7 +211,7 @@ FittedCurves fit_curves(const SurfaceMesh& surface, const FeatureNet& net, const
   place_planes(surface, net, planes, fitted.surface, fitted.directions);
   fit_nodes(fitted.surface, fitted.directions, net, scan, progress);
   const auto keep_volume = [&](const std::vector<Vec3>& directions, CurvedSurface& shifted) {
-    keep_curved_volume(shifted, fitted.volumes, directions);
+    return keep_curved_volume(shifted, fitted.volumes, directions);
   };
   fitted.straight = settle(straight, keep_volume, kept, fitted.surface, fitted.directions);
   return fitted;

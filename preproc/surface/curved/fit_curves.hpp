@@ -42,12 +42,12 @@ FittedCurves fit_curves(const SurfaceMesh& surface, const FeatureNet& net, const
 std::vector<Vec3> fit_piece(CurvedSurface& surface, const std::vector<bool>& is_held, const FeatureNet& net,
                             const ReferenceSurface& scan, const Progress& progress = {});
 
-// Gives a surface the volumes that it should have, by moving its nodes along their directions.
-using VolumeKeeper = std::function<void(const std::vector<Vec3>& directions, CurvedSurface& surface)>;
+// Gives a surface the volumes that it should have, by moving its nodes along their directions; false where it cannot.
+using VolumeKeeper = std::function<bool(const std::vector<Vec3>& directions, CurvedSurface& surface)>;
 
 // The fitted surface with its volumes. Faces that then meet others, whose corners went where they make a needle, or
 // that lose a deviation that they keep as they were (null: none), are straight, and so is all of it, where that
-// does not end. Returns how many are straight.
+// does not end, or too few nodes are left that may move to keep the volume. Returns how many are straight.
 std::size_t settle(const CurvedSurface& straight, const VolumeKeeper& keep_volume, const KeptDeviation* kept,
                    CurvedSurface& fitted, std::vector<Vec3>& directions);
 

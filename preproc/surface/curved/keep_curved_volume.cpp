@@ -61,23 +61,25 @@ std::vector<double> volumes_of_components(const SurfaceMesh& surface) {
   return volumes;
 }
 
-void keep_curved_volume(CurvedSurface& surface, const std::vector<double>& volumes, std::vector<Vec3> directions) {
-  constexpr double exact = 1e-12, farthest_of_edge = 0.1;
+bool keep_curved_volume(CurvedSurface& surface, const std::vector<double>& volumes, std::vector<Vec3> directions) {
+  constexpr double exact = 1e-12, kept = 1e-9, farthest_of_edge = 0.1;
   constexpr int most_steps = 8;
   const std::vector<std::vector<std::uint32_t>> components = faces_of_components(surface.corners);
   const Vec3 centre = centre_of(surface.corners);
   hold_planes(surface, components, directions);
   const double farthest = farthest_of_edge * mean_edge_length(surface.corners);
   std::vector<Vec3> gradient(surface.nodes());
+  bool all_kept = true;
   for (std::size_t c = 0; c < components.size(); ++c) {
     std::vector<std::size_t> nodes;
     for (const std::uint32_t f : components[c])
       for (const std::size_t i : surface.nodes_of(f)) nodes.push_back(i);
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    const auto missing_volume = [&] { return volumes[c] - curved_volume(surface, components[c], centre); };
     double total = 0;
     for (int step = 0; step < most_steps; ++step) {
-      const double missing = volumes[c] - curved_volume(surface, components[c], centre);
+      const double missing = missing_volume();
       if (std::abs(missing) <= exact * std::abs(volumes[c])) break;
       for (const std::size_t i : nodes) gradient[i].setZero();
       add_volume_gradient(surface, components[c], gradient);
@@ -88,7 +90,9 @@ void keep_curved_volume(CurvedSurface& surface, const std::vector<double>& volum
       total += shift;
       for (const std::size_t i : nodes) surface.node(i) += shift * directions[i];
     }
+    all_kept = all_kept && std::abs(missing_volume()) <= kept * std::abs(volumes[c]);
   }
+  return all_kept;
 }
 
 }  // namespace scan2fea
