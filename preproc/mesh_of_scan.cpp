@@ -368,6 +368,7 @@ void MeshMaker::bring_back() {
   frame_->bring_back(made_.simplified.features.points, scan_);
   made_.simplified.largest_deviation *= frame_->unit();
   made_.simplified.aimed_deviation *= frame_->unit();
+  made_.simplified.noise_in_aim *= frame_->unit();
 }
 
 }  // namespace

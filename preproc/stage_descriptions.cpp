@@ -168,6 +168,10 @@ void describe(const SimplifyResult& result, const InScan& in_scan, StageRecord& 
   if (!result.size_remark.empty()) record.remarks.push_back(result.size_remark);
   if (result.largest_deviation > 0)
     record.changes.emplace_back("largest_deviation", in_scan.unit() * result.largest_deviation);
+  if (result.noise_in_aim > 0)
+    record.remarks.push_back("the scan has noise of " + rounded(in_scan.unit() * result.noise_in_aim) +
+                             ", whose farthest vertices no smooth surface comes near: " +
+                             rounded(in_scan.unit() * result.aimed_deviation) + " from the scan is aimed at");
   if (result.is_of_curved)
     record.remarks.emplace_back("the deviation is that of its curved triangles, of which fewer keep it");
   if (result.largest_deviation > result.aimed_deviation)

@@ -1,6 +1,7 @@
 #include "preproc/surface/features/find_features.hpp"
 
 #include "preproc/mesh/read_surface.hpp"
+#include "preproc/surface/features/scan_noise.hpp"
 #include "quality/triangle_measures.hpp"
 #include "tests/analytic_meshes.hpp"
 #include "tests/scans.hpp"
@@ -124,6 +125,27 @@ TEST(FindFeatures, NoiseIsMeasured) {
       const double noise = find_features(analytic::noisy(mesh, sigma, 1)).noise;
       EXPECT_NEAR(noise, sigma, 0.2 * sigma);
     }
+}
+
+TEST(IndependentNoise, IsMeasuredOnWhatIsSmoothAndOnAPart) {
+  for (const SurfaceMesh& mesh : {analytic::torus(3, 1, 120, 60), analytic::box({3, 3, 3}, 0.1)})
+    for (const double sigma : {0.003, 0.01}) {
+      const SurfaceMesh noisy = analytic::noisy(mesh, sigma, 1);
+      EXPECT_NEAR(estimate_independent_noise(noisy, VertexStars(noisy)), sigma, 0.3 * sigma);
+    }
+}
+
+// Waves of six edges, and facets: residuals from quadrics as large as those of noise.
+TEST(IndependentNoise, IsNoneOfWavesAndFacets) {
+  SurfaceMesh wavy = analytic::torus(3, 1, 180, 60);
+  for (Vec3& p : wavy.vertices) {
+    const Vec3 ring = 3 * Vec3(p.x(), p.y(), 0).normalized();
+    p += 0.02 * std::sin(30 * std::atan2(p.y(), p.x())) * (p - ring);
+  }
+  EXPECT_GT(estimate_noise(wavy, MeshAdjacency(wavy)), 0.001);
+  for (const SurfaceMesh& mesh :
+       {wavy, analytic::sphere(1, 2), analytic::torus(3, 1, 20, 10), analytic::cylinder(1, 3, 24, 6)})
+    EXPECT_LT(estimate_independent_noise(mesh, VertexStars(mesh)), 1e-4);
 }
 
 TEST(FindFeatures, CoarsePartsAreNotNoisy) {

@@ -86,6 +86,18 @@ Features features_of(const SurfaceMesh& mesh, const SimplifyOptions& options) {
   return {match_features(mesh, adjacency.stars, *options.given_features), estimate_noise(mesh, adjacency), {}};
 }
 
+// An aim that noise is beyond would be met by following it, vertex by vertex: half of the aim is left to the triangles,
+// and on top of it comes how far the farthest of so many vertices are by chance. Returns the noise where that was done.
+double allow_for_noise(const SurfaceMesh& scan, WantedSurface& wanted) {
+  LargestDeviation& aim = *wanted.deviation;
+  if (aim.required) return 0;
+  const double noise = estimate_independent_noise(scan, VertexStars(scan));
+  const double farthest = noise * std::sqrt(2 * std::log(static_cast<double>(scan.vertices.size())));
+  wanted.left_to_noise = std::max(0.0, farthest - aim.distance / 2);
+  aim.distance += wanted.left_to_noise;
+  return wanted.left_to_noise > 0 ? noise : 0;
+}
+
 CurveTolerance tolerance_of_curves(const SurfaceMesh& mesh, const TargetSize& size, double noise) {
   CurveTolerance tolerance{.least = std::max(curve_tolerance * body_sizes(mesh).smallest, noise_on_curves * noise)};
   if (const auto* bound = std::get_if<LargestDeviation>(&size))
@@ -120,8 +132,9 @@ KeptLines lines_to_keep(const SurfaceMesh& mesh, const std::vector<FeatureEdge>&
 }
 
 // What became of the creases that were to be kept.
-std::string feature_remark(std::size_t wanted, std::size_t kept) {
+std::string feature_remark(std::size_t wanted, std::size_t kept, bool is_noisy) {
   if (kept >= wanted) return {};
+  if (kept == 0 && is_noisy) return "noise hides where creases run, and triangles between them are poor: none is kept";
   const std::string too_large = "triangles of the wanted size are too large for the creases: ";
   if (kept == 0) return too_large + "none is kept";
   return too_large + std::to_string(wanted - kept) + " of " + std::to_string(wanted) + " edges of creases are not kept";
@@ -166,7 +179,7 @@ SimplifyResult Simplification::State::result(Candidate candidate, SurfaceMesh& s
   result.largest_deviation = candidate.largest_deviation;
   result.line_edges = edges_of(candidate.net);
   result.feature_edges_kept = result.line_edges.size();
-  result.feature_remark = feature_remark(wanted_creases, candidate.scan->creases().size());
+  result.feature_remark = feature_remark(wanted_creases, candidate.scan->creases().size(), of_scan.noise_in_aim > 0);
   result.feature_edges_too_fine = search->too_fine_creases();
   result.size_remark = search->size_remark();
   const double made = static_cast<double>(candidate.faces());
@@ -218,8 +231,9 @@ Simplification::Simplification(const SurfaceMesh& scan, const SimplifyOptions& o
   WantedSurface wanted;
   if (const auto* bound = std::get_if<LargestDeviation>(&size)) {
     wanted.deviation = *bound;
+    state.of_scan.noise_in_aim = allow_for_noise(scan, wanted);
     wanted.is_of_curved = state.of_scan.is_of_curved = options.curved;
-    state.of_scan.aimed_deviation = bound->distance;
+    state.of_scan.aimed_deviation = wanted.deviation->distance;
   } else {
     wanted.triangles = state.wanted_triangles = wanted_faces(size, scan, area);
   }

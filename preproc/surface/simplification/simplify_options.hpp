@@ -84,7 +84,9 @@ struct SimplifyResult {
   double largest_deviation = 0;      // an upper bound, two-sided, model units; only where the size is a deviation
   bool is_of_curved = false;         // triangles, that deviation
   double aimed_deviation = 0;        // what it was to be
-  std::size_t feature_edges = 0;     // of the scan, that were found or given; the sharp ones of the next two as well
+  // The noise of single vertices, model units, for whose farthest the aim was made larger; 0: it was not.
+  double noise_in_aim = 0;
+  std::size_t feature_edges = 0;  // of the scan, that were found or given; the sharp ones of the next two as well
   std::vector<UnsupportedCreases> unsupported_creases;  // taken for folds, roundings or noise (see judge_creases)
   std::size_t feature_edges_too_fine = 0;               // creases that triangles of the wanted size cannot keep
   FeatureLines features;                                // the creases of the scan that were to be kept

@@ -44,7 +44,7 @@ std::vector<double> wanted_lengths(const SurfaceMesh& sheet, const std::vector<F
   std::vector<double> length(sheet.vertices.size(), edge_length);
   if (const auto* bound = std::get_if<LargestDeviation>(&options.size)) {
     const CutSurface cut = cut_along(sheet, creases);
-    const std::vector<double> bent = lengths_for_deviation(sheet, bound->distance, options.gradation, &cut);
+    const std::vector<double> bent = lengths_for_deviation(sheet, bound->distance, 0, options.gradation, &cut);
     for (std::size_t v = 0; v < length.size(); ++v) length[v] = std::min(length[v], bent[v]);
   }
   limit_gradation(sheet, options.gradation, length);

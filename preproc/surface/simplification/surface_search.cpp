@@ -114,7 +114,9 @@ SurfaceSearch::SurfaceSearch(PreparedScanPointer scan, FineCreases fine_creases,
 
 Candidate SurfaceSearch::run(const Progress& progress) {
   most_to_mend_ = wanted_.is_of_curved ? few_curves_beyond : few_beyond;
-  Trial latest = make_first(progress), best = latest;
+  Trial latest = make_first(progress);
+  if (are_creases_noise(latest)) try_without_creases(latest, progress);
+  Trial best = latest;
   first_work_ = work_;
   most_work_ = std::max(most_work * (wanted_.deviation ? first_work_ : wanted_.triangles),
                         wanted_.is_of_curved ? curved_work_for_small : work_for_small);
@@ -220,10 +222,11 @@ std::vector<bool> SurfaceSearch::held() const {
 
 void SurfaceSearch::set_first_sizing(const Progress& progress) {
   if (wanted_.deviation) {
-    length_ = lengths_for_deviation(scan_->mesh, straight_distance(), options_.gradation,
+    const double bend = straight_over_curved_ * (wanted_.deviation->distance - wanted_.left_to_noise);
+    length_ = lengths_for_deviation(scan_->mesh, bend, wanted_.left_to_noise, options_.gradation,
                                     scan_->has_features() ? &scan_->features().cut : nullptr);
     // With nodes in their middles the longest edges have them as near to one another as straight ones have.
-    const double longest = 2 * longest_over_deviation * wanted_.deviation->distance;
+    const double longest = 2 * longest_over_deviation * (wanted_.deviation->distance - wanted_.left_to_noise);
     if (wanted_.is_of_curved)
       for (double& l : length_) l = std::min(l, longest);
     ask_for_lower_lengths(most_triangles());
@@ -264,6 +267,28 @@ SurfaceSearch::Trial SurfaceSearch::make_first(const Progress& progress) {
     if (!first.failed() && first.share_beyond <= most_curves_beyond) return first;
   }
   throw no_gain_of_curves();
+}
+
+// Under noise creases are found in pieces, beside where they are, and triangles between them are poor.
+bool SurfaceSearch::are_creases_noise(const Trial& first) const {
+  const bool may_drop = !options_.given_features || options_.may_drop_given;
+  return may_drop && wanted_.left_to_noise > 0 && scan_->has_creases() && !first.failed() &&
+         first.shape.sharpest() < usable_deg;
+}
+
+void SurfaceSearch::try_without_creases(Trial& latest, const Progress& progress) {
+  const PreparedScanPointer with = std::exchange(scan_, with_creases(scan_, {}));
+  std::vector<double> length = length_;
+  const SizingOptions sizing = sizing_;
+  Trial without = make_first(progress);
+  if (order().is_better(without, latest)) {
+    latest = std::move(without);
+    return;
+  }
+  scan_ = with;
+  length_ = std::move(length);
+  sizing_ = sizing;
+  if (!length_.empty()) sizing_.factors = length_;
 }
 
 SurfaceSearch::Trial SurfaceSearch::make(bool may_contract, const Progress& progress) {

@@ -23,6 +23,7 @@ namespace scan2fea {
 struct WantedSurface {
   double triangles = 0;
   std::optional<LargestDeviation> deviation;
+  double left_to_noise = 0;     // of that deviation, which edges are not to be long for
   bool is_of_curved = false;    // triangles, that deviation
   std::vector<double> longest;  // edges allowed, per vertex of the scan, or empty
 };
@@ -68,6 +69,8 @@ class SurfaceSearch {
 
   void set_first_sizing(const Progress& progress);
   Trial make_first(const Progress& progress);
+  bool are_creases_noise(const Trial& first) const;
+  void try_without_creases(Trial& latest, const Progress& progress);
   Trial make(bool may_contract, const Progress& progress);
   Trial make_by_shape(const Progress& progress);
   Trial judged(Candidate candidate, const Progress& progress);

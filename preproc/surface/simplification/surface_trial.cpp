@@ -54,7 +54,8 @@ bool TrialOrder::is_accepted(const SurfaceTrial& made) const {
 bool TrialOrder::is_better(const SurfaceTrial& made, const SurfaceTrial& other) const {
   if (made.failed() != other.failed()) return other.failed();
   if (made.is_other_part != other.is_other_part) return other.is_other_part;
-  if (is_aim() && std::min(made.shape.sharpest(), other.shape.sharpest()) < usable_deg)
+  if (is_aim() && std::min(made.shape.sharpest(), other.shape.sharpest()) < usable_deg &&
+      std::abs(made.shape.sharpest() - other.shape.sharpest()) > worth_it_deg)
     return made.shape.sharpest() > other.shape.sharpest();
   if (holds(made) != holds(other)) return holds(made);
   if (!holds(made) && made.gave_way() != other.gave_way()) return other.gave_way();

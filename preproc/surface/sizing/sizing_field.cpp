@@ -254,17 +254,18 @@ void limit_gradation(const SurfaceMesh& scan, double gradation, std::vector<doub
   limit_gradation(Scan(scan), gradation, edge_length);
 }
 
-std::vector<double> lengths_for_deviation(const SurfaceMesh& mesh, double deviation, double gradation,
+std::vector<double> lengths_for_deviation(const SurfaceMesh& mesh, double deviation, double roughness, double gradation,
                                           const CutSurface* cut) {
+  const double width = smoothing_over_deviation * (deviation + roughness);
   std::vector<double> curvature2(mesh.vertices.size(), 0.0);
   if (cut) {
-    const std::vector<double> of_copy = squared_curvature_over(Scan(cut->mesh), smoothing_over_deviation * deviation);
+    const std::vector<double> of_copy = squared_curvature_over(Scan(cut->mesh), width);
     for (std::size_t v = 0; v < of_copy.size(); ++v) {
       double& largest = curvature2[cut->vertex_of_copy[v]];
       largest = std::max(largest, of_copy[v]);
     }
   } else {
-    curvature2 = squared_curvature_over(Scan(mesh), smoothing_over_deviation * deviation);
+    curvature2 = squared_curvature_over(Scan(mesh), width);
   }
   std::vector<double> length(curvature2.size());
   set_each(length, [&](std::size_t v) {

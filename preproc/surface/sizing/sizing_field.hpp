@@ -61,9 +61,10 @@ SizingField compute_sizing_field(const SurfaceMesh& scan, const SizingOptions& o
 inline constexpr double longest_over_deviation = 36;
 
 // Per vertex of the scan, the edge lengths with which a fitted surface comes about within `deviation` (model units) of
-// it almost everywhere, by its curvature; see compute_sizing_field for `cut`. Not guaranteed: that it does, or that
-// longer ones would not do. O(n log n); parallel.
-std::vector<double> lengths_for_deviation(const SurfaceMesh& scan, double deviation, double gradation,
+// it almost everywhere, by its curvature; see compute_sizing_field for `cut`. `roughness`: how far single vertices may
+// be beside, model units, as by noise. Not guaranteed: that it does, or that longer ones would not do. O(n log n);
+// parallel.
+std::vector<double> lengths_for_deviation(const SurfaceMesh& scan, double deviation, double roughness, double gradation,
                                           const CutSurface* cut = nullptr);
 
 // Asks for these lengths, and for the number of triangles that they give. Keeps a reference to them.
