@@ -79,7 +79,6 @@ class BodiesPipeline {
   void fill(StageRecord& record);
   TetMesh filled(StageRecord& record);
   void curve(StageRecord& record);
-  void curve_as_fitted(TetMesh& mesh, SecondOrderResult& result);
   EdgePlaces nearest_places(const TetMesh& mesh) const;
   void add_sets(const TetMesh& mesh);
 
@@ -338,12 +337,15 @@ void BodiesPipeline::add_sets(const TetMesh& mesh) {
 
 void BodiesPipeline::curve(StageRecord& record) {
   TetMesh& mesh = *result_.volume_mesh;
-  add_mid_edge_nodes(mesh);
   SecondOrderResult result;
   if (curved_) {
     result.straight_triangles = curved_->straight;
-    curve_as_fitted(mesh, result);
+    const auto keep_volumes = [&](const std::vector<Vec3>& directions, CurvedSurface& surface) {
+      return keep_volumes_of_bodies(straight_, directions, surface);
+    };
+    curve_as_fitted(curved_->surface, curved_->directions, keep_volumes, mesh, result);
   } else {
+    add_mid_edge_nodes(mesh);
     EdgePlaces to = nearest_places(mesh);
     result.curved = curve_mid_edge_nodes(mesh, to);
   }
@@ -354,23 +356,6 @@ void BodiesPipeline::curve(StageRecord& record) {
   }
   measure_sets(result_);
   result_.weak_places = find_weak_places(result_.surface, &mesh, scan_.mesh);
-}
-
-// Nodes that are eased change volumes a little, which the other nodes of edges take up.
-void BodiesPipeline::curve_as_fitted(TetMesh& mesh, SecondOrderResult& result) {
-  CurvedSurface& surface = curved_->surface;
-  EdgePlaces to{surface.edges, surface.mid};
-  result.curved = curve_mid_edge_nodes(mesh, to);
-  if (result.curved.eased == 0) return;
-  const std::size_t corners = surface.corners.vertices.size();
-  std::fill_n(curved_->directions.begin(), corners, Vec3::Zero());
-  for (std::size_t e = 0; e < to.places.size(); ++e)
-    if (surface.mid[e] != to.places[e]) curved_->directions[corners + e].setZero();
-  surface.mid = std::move(to.places);
-  result.keeps_volume = keep_volumes_of_bodies(straight_, curved_->directions, surface);
-  to.places = surface.mid;
-  place_mid_edge_nodes(mesh, to);
-  result.curved.volume = total_volume(mesh);
 }
 
 // Where there was no time, or no way, to fit them. Of edges that stand for lines of the scans, the nodes lie on these

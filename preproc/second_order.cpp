@@ -29,28 +29,6 @@ std::optional<TetrahedralizeResult> filled_anew(const SurfaceMesh& surface,
   }
 }
 
-// Nodes that are eased change the volume a little, which the other nodes of edges take up: by so little that no element
-// suffers. (Corners would count for nothing: their shape functions' integrals are zero.)
-void curve(FittedCurves& fitted, TetMesh& mesh, const Progress& progress, SecondOrderResult& result) {
-  add_mid_edge_nodes(mesh);
-  EdgePlaces to{fitted.surface.edges, fitted.surface.mid};
-  result.curved = curve_mid_edge_nodes(mesh, to, progress);
-  if (result.curved.eased == 0) return;
-  const std::size_t corners = fitted.surface.corners.vertices.size();
-  std::fill_n(fitted.directions.begin(), corners, Vec3::Zero());
-  for (std::size_t e = 0; e < to.places.size(); ++e)
-    if (fitted.surface.mid[e] != to.places[e]) fitted.directions[corners + e].setZero();
-  fitted.surface.mid = std::move(to.places);
-  result.keeps_volume = keep_curved_volume(fitted.surface, fitted.volumes, fitted.directions);
-  to.places = fitted.surface.mid;
-  place_mid_edge_nodes(mesh, to);
-  result.curved.volume = total_volume(mesh);
-}
-
-}  // namespace
-
-namespace {
-
 // None where none was reached.
 std::vector<std::uint32_t> lost_deviation(const SimplifyResult& simplified, const CurvedSurface& surface) {
   if (!simplified.keeps_deviation()) return {};
@@ -62,6 +40,24 @@ std::vector<std::uint32_t> lost_deviation(const SimplifyResult& simplified, cons
 }
 
 }  // namespace
+
+// (Corners would count for nothing: their shape functions' integrals are zero.)
+void curve_as_fitted(CurvedSurface& surface, std::vector<Vec3>& directions, const VolumeKeeper& keep_volume,
+                     TetMesh& mesh, SecondOrderResult& result, const Progress& progress) {
+  add_mid_edge_nodes(mesh);
+  EdgePlaces to{surface.edges, surface.mid};
+  result.curved = curve_mid_edge_nodes(mesh, to, progress);
+  if (result.curved.eased == 0) return;
+  const std::size_t corners = surface.corners.vertices.size();
+  std::fill_n(directions.begin(), corners, Vec3::Zero());
+  for (std::size_t e = 0; e < to.places.size(); ++e)
+    if (surface.mid[e] != to.places[e]) directions[corners + e].setZero();
+  surface.mid = std::move(to.places);
+  result.keeps_volume = keep_volume(directions, surface);
+  to.places = surface.mid;
+  place_mid_edge_nodes(mesh, to);
+  result.curved.volume = total_volume(mesh);
+}
 
 SecondOrderResult make_second_order(const Simplification& search, const TetrahedralizeOptions& tetrahedralization,
                                     FilledSurface& made, const Progress& progress) {
@@ -76,7 +72,10 @@ SecondOrderResult make_second_order(const Simplification& search, const Tetrahed
   result.straight_triangles = fitted.straight;
   result.parted_elements =
       part_two_sided_elements(filled->mesh, fitted.surface.corners.vertices.size(), made.simplified.line_edges);
-  curve(fitted, filled->mesh, progress, result);
+  const auto keep_volume = [&](const std::vector<Vec3>& directions, CurvedSurface& surface) {
+    return keep_curved_volume(surface, fitted.volumes, directions);
+  };
+  curve_as_fitted(fitted.surface, fitted.directions, keep_volume, filled->mesh, result, progress);
   if (result.curved.eased > 0) result.beyond = lost_deviation(made.simplified, fitted.surface);
   made.filled = std::move(*filled);
   made.surface = std::move(fitted.surface.corners);

@@ -22,6 +22,12 @@ struct SecondOrderResult {
   bool corners_kept = false;           // since between corners on the scan no tetrahedra came out in time
 };
 
+// Gives a filled mesh its mid-edge nodes, those of a fitted surface on its boundary. Nodes that are eased change the
+// volume a little, which the other nodes of edges take up along their directions: by so little that no element suffers.
+// `surface` and `directions` are then as they came out. Throws Cancelled.
+void curve_as_fitted(CurvedSurface& surface, std::vector<Vec3>& directions, const VolumeKeeper& keep_volume,
+                     TetMesh& mesh, SecondOrderResult& result, const Progress& progress = {});
+
 // `made` came of `search`. Its triangles are fitted to the scan as curved ones, for which their corners move, too; then
 // it is filled anew, and its tetrahedra get their mid-edge nodes. The enclosed volume is that of the straight surface.
 // Throws Cancelled and OutOfTime, and then

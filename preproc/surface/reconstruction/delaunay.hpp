@@ -39,9 +39,9 @@ class Delaunay {
   DelaunayCells cells() const;
 
   // A front from which triangles are added one by one, those first that continue it most smoothly, or else have the
-  // least radius: an oriented manifold, mostly with borders, of components each of which may face inwards, and outwards
-  // the next time; but the same triangles in the same order. Not all points need be used. Triangles that bend by less
-  // than `beta`, radians, are compared by their radius alone. About 10 us a point.
+  // least radius: an oriented manifold, mostly with borders, of components each of which may face inwards. Not all
+  // points need be used. Triangles that bend by less than `beta`, radians, are compared by their radius alone. The same
+  // in every run. About 10 us a point.
   std::vector<Triangle> advancing_front(double beta) const;
 
  private:

@@ -127,13 +127,10 @@ Candidate SurfaceSearch::run(const Progress& progress) {
   while (!order().is_accepted(latest) &&
          ((is_missing() && !wanted_.is_of_curved) || in_vain <= patience(latest.candidate.faces())) &&
          progress.may_improve()) {
-    std::vector<double> length = length_;
-    const SizingOptions sizing = sizing_;
+    Asked before = asked();
     lower_lengths(latest);
     if (!ask_for_lower_lengths(most_triangles())) {
-      length_ = std::move(length);  // whoever asks again goes on from what was made
-      sizing_ = sizing;
-      if (!length_.empty()) sizing_.factors = length_;
+      ask_again(std::move(before));  // whoever asks for shorter ones goes on from what was made
       break;
     }
     // The creases of free forms are specks and folds: smaller triangles are no reason to keep them.
@@ -222,11 +219,11 @@ std::vector<bool> SurfaceSearch::held() const {
 
 void SurfaceSearch::set_first_sizing(const Progress& progress) {
   if (wanted_.deviation) {
-    const double bend = straight_over_curved_ * (wanted_.deviation->distance - wanted_.left_to_noise);
-    length_ = lengths_for_deviation(scan_->mesh, bend, wanted_.left_to_noise, options_.gradation,
-                                    scan_->has_features() ? &scan_->features().cut : nullptr);
+    const double of_shape = wanted_.deviation->distance - wanted_.left_to_noise;
+    length_ = lengths_for_deviation(scan_->mesh, straight_over_curved_ * of_shape, wanted_.left_to_noise,
+                                    options_.gradation, scan_->has_features() ? &scan_->features().cut : nullptr);
     // With nodes in their middles the longest edges have them as near to one another as straight ones have.
-    const double longest = 2 * longest_over_deviation * (wanted_.deviation->distance - wanted_.left_to_noise);
+    const double longest = 2 * longest_over_deviation * of_shape;
     if (wanted_.is_of_curved)
       for (double& l : length_) l = std::min(l, longest);
     ask_for_lower_lengths(most_triangles());
@@ -277,18 +274,28 @@ bool SurfaceSearch::are_creases_noise(const Trial& first) const {
 }
 
 void SurfaceSearch::try_without_creases(Trial& latest, const Progress& progress) {
+  Asked before = asked();
   const PreparedScanPointer with = std::exchange(scan_, with_creases(scan_, {}));
-  std::vector<double> length = length_;
-  const SizingOptions sizing = sizing_;
-  Trial without = make_first(progress);
-  if (order().is_better(without, latest)) {
-    latest = std::move(without);
-    return;
+  try {
+    Trial without = make_first(progress.for_improvement());
+    if (order().is_better(without, latest)) {
+      latest = std::move(without);
+      return;
+    }
+  } catch (const NotMeshable&) {  // for want of time, too
   }
   scan_ = with;
-  length_ = std::move(length);
-  sizing_ = sizing;
-  if (!length_.empty()) sizing_.factors = length_;
+  ask_again(std::move(before));
+}
+
+SurfaceSearch::Asked SurfaceSearch::asked() const {
+  return {length_, sizing_};
+}
+
+void SurfaceSearch::ask_again(Asked before) {
+  length_ = std::move(before.length);
+  sizing_ = before.sizing;
+  if (!length_.empty()) sizing_.factors = length_;  // which they refer to
 }
 
 SurfaceSearch::Trial SurfaceSearch::make(bool may_contract, const Progress& progress) {

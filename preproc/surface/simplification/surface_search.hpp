@@ -67,6 +67,14 @@ class SurfaceSearch {
  private:
   using Trial = SurfaceTrial;
 
+  // What was asked for last.
+  struct Asked {
+    std::vector<double> length;
+    SizingOptions sizing;
+  };
+  Asked asked() const;
+  void ask_again(Asked before);
+
   void set_first_sizing(const Progress& progress);
   Trial make_first(const Progress& progress);
   bool are_creases_noise(const Trial& first) const;
