@@ -1,8 +1,8 @@
 #include "preproc/surface/enrichment/enrich.hpp"
 
 #include "preproc/mesh/error.hpp"
-#include "preproc/surface/enrichment/chord_volume.hpp"
 #include "preproc/surface/enrichment/clear_surface.hpp"
+#include "preproc/surface/enrichment/curved_volume.hpp"
 #include "preproc/surface/enrichment/cut_creases.hpp"
 #include "preproc/surface/enrichment/insertion.hpp"
 #include "preproc/surface/enrichment/triharmonic_lift.hpp"
@@ -64,8 +64,9 @@ void move_all(HalfedgeMesh& mesh, ClearSurface& clear, const std::vector<Vec3>& 
         clear.move(v, 0.5 * (mesh.points[v] + targets[v]));
 }
 
-void lift_the_rest(HalfedgeMesh& mesh, ClearSurface& clear, const SurfaceLabels& labels, Index original,
+void lift_the_rest(const HalfedgeMesh& scan, HalfedgeMesh& mesh, ClearSurface& clear, const SurfaceLabels& labels,
                    const Insertion& inserted, const Primitives& found) {
+  const auto original = static_cast<Index>(scan.vertex_slots());
   std::vector<bool> free(mesh.vertex_slots(), false), measured(mesh.vertex_slots(), false);
   for (Index v = 0; v < mesh.vertex_slots(); ++v) {
     if (labels.of(v).size() > 0 || (v >= inserted.first && inserted.in_gap[v - inserted.first])) continue;
@@ -81,7 +82,8 @@ void lift_the_rest(HalfedgeMesh& mesh, ClearSurface& clear, const SurfaceLabels&
   // Where measured points stay the new ones have it all.
   if (hold_against(found) > 0)
     for (Index v = 0; v < original; ++v) free[v] = measured[v];
-  move_all(mesh, clear, with_chord_volume(mesh, free, inserted.on_crease));
+  for (Index v = 0; v < mesh.vertex_slots(); ++v) free[v] = free[v] && !inserted.on_crease[v];
+  move_all(mesh, clear, with_curved_volume(mesh, free, curved_volume(scan)));
 }
 
 void count_moves(const HalfedgeMesh& mesh, const std::vector<Vec3>& bases, Index original, EnrichResult& result) {
@@ -160,9 +162,10 @@ EnrichResult enrich(SurfaceMesh& mesh, const EnrichOptions& options, const Progr
   const Primitives found = primitives_of(mesh, options, progress);
   HalfedgeMesh surface(mesh);
   SurfaceLabels labels(surface, found);
-  const auto original = static_cast<Index>(surface.vertex_slots());
-  std::vector<Vec3> bases = surface.points;
   ClearSurface clear(surface, std::max(mean_edge_length(mesh), 1e-300));
+  const HalfedgeMesh scan = surface;
+  const auto original = static_cast<Index>(scan.vertex_slots());
+  std::vector<Vec3> bases = scan.points;
   const CreaseCutResult cut = cut_creases(surface, labels, clear);
   unfold(surface, labels, clear);
   bases.insert(bases.end(), cut.bases.begin(), cut.bases.end());
@@ -172,7 +175,7 @@ EnrichResult enrich(SurfaceMesh& mesh, const EnrichOptions& options, const Progr
   result.added += cut.bases.size();
   if (result.added == 0) return result;
   progress("enrich", 0.8);
-  if (options.lifting == Lifting::triharmonic) lift_the_rest(surface, clear, labels, original, inserted, found);
+  if (options.lifting == Lifting::triharmonic) lift_the_rest(scan, surface, clear, labels, inserted, found);
   unfold(surface, labels, clear);
   count_moves(surface, bases, original, result);
   result.creases = creases_of(surface, labels);

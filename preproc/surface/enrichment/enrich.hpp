@@ -94,11 +94,11 @@ struct EnrichResult {
 // their order (vertices that no face uses are dropped), borders their edges, the surface its topology. They keep their
 // places, too, but for those on primitives (by at most 4 of its sigmas, or an eighth of an edge onto a crease) and
 // those of noisy scans, which are smoothed. On free forms new and smoothed points lie outside of round surfaces by as
-// much as gives back what chords cut off (chord_volume.hpp). Edges are flipped near new vertices only, and never across
-// creases. Faces that a move turned over or drove through others are put back. Where nothing is missing nothing
-// changes. Throws WrongUsage for options out of range. On any throw `mesh` is as it was. Deterministic, one thread;
-// O((n + m) log n) for n vertices and m new ones, about 100 microseconds a new vertex. Not guaranteed: that what a gap
-// of the scan hid is known; that a surface that crossed itself before does not afterwards.
+// much as gives back what chords of the scan cut off (curved_volume.hpp). Edges are flipped near new vertices only, and
+// never across creases. Faces that a move turned over or drove through others are put back. Where nothing is missing
+// nothing changes. Throws WrongUsage for options out of range. On any throw `mesh` is as it was. Deterministic, one
+// thread; O((n + m) log n) for n vertices and m new ones, about 100 microseconds a new vertex. Not guaranteed: that
+// what a gap of the scan hid is known; that a surface that crossed itself before does not afterwards.
 EnrichResult enrich(SurfaceMesh& mesh, const EnrichOptions& options = {}, const Progress& progress = {});
 
 }  // namespace scan2fea

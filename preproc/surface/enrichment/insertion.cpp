@@ -21,9 +21,6 @@ using Index = HalfedgeMesh::Index;
 // so bent that points put into a sector are not seen in it.
 constexpr std::uint8_t most_requests = 6;
 
-// Between the angles of coarse or noisy scans and the edges of parts.
-constexpr double crease_deg = 60;
-
 // Measured points whose side turns more than 60 degrees from the new point's tangent plane tell nothing of its height.
 constexpr double smallest_sample_cosine = 0.5;
 
@@ -42,7 +39,7 @@ class Inserter {
         clear_(clear),
         options_(options),
         nearest_(mesh_),
-        normals_(mesh_, crease_deg),
+        normals_(mesh_),
         importance_(mesh_, normals_),
         original_(original) {
     done_.first = static_cast<Index>(mesh_.vertex_slots());

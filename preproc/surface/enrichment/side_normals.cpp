@@ -19,9 +19,21 @@ double dihedral_deg(const HalfedgeMesh& mesh, Index h) {
   return angle_between(w1, w2) * 180 / std::numbers::pi;
 }
 
+// At the origin of `h`.
+Vec3 corner_normal(const HalfedgeMesh& mesh, Index h, CornerWeight weight) {
+  const Vec3& p = mesh.points[mesh.origin(h)];
+  const Vec3 first = mesh.points[mesh.target(h)] - p;
+  const Vec3 second = mesh.points[mesh.origin(HalfedgeMesh::prev(h))] - p;
+  const Vec3 across = first.cross(second);
+  const double length = across.norm();
+  if (!(length > 0)) return Vec3::Zero();
+  if (weight == CornerWeight::angle) return std::atan2(length, first.dot(second)) / length * across;
+  return across / (first.squaredNorm() * second.squaredNorm());
+}
+
 }  // namespace
 
-SideNormals::SideNormals(const HalfedgeMesh& mesh, double crease_deg) : crease_deg_(crease_deg) {
+SideNormals::SideNormals(const HalfedgeMesh& mesh, CornerWeight weight) {
   means_.reserve(mesh.vertex_slots());
   first_.reserve(mesh.vertex_slots() + 1);
   std::vector<Index> fan;
@@ -37,7 +49,7 @@ SideNormals::SideNormals(const HalfedgeMesh& mesh, double crease_deg) : crease_d
         sides_.push_back(side.normalized());
         side.setZero();
       }
-      const Vec3 w = mesh.area_vector(HalfedgeMesh::face(fan[i]));
+      const Vec3 w = corner_normal(mesh, fan[i], weight);
       side += w;
       sum += w;
     }
@@ -56,7 +68,8 @@ const Vec3& SideNormals::facing(Index v, const Vec3& direction) const {
 
 bool SideNormals::is_crease(const HalfedgeMesh& mesh, Index h) const {
   const double angle = dihedral_deg(mesh, h);
-  if (!(angle > crease_deg_)) return false;
+  constexpr double least = 60;  // degrees; between the angles of coarse or noisy scans and the edges of parts
+  if (!(angle > least)) return false;
   // On a bent, coarse surface the faces' other edges bend as well: with angles alone its new points end a fifth farther
   // from the truth.
   for (const Index side : {h, mesh.opposite(h)})
