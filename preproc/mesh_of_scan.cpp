@@ -379,7 +379,10 @@ std::vector<WeakPlace> checked_for_solvers(const SurfaceMesh& surface, const Tet
   std::vector<WeakPlace> places = find_weak_places(surface, volume_mesh, scan, flat_tetrahedra);
   const bool is_told_only =
       !options.tetrahedralize && options.simplify && options.simplify->method == SimplifyMethod::collapse;
-  if (!is_told_only) refuse_unusable(places);
+  if (!is_told_only) {
+    refuse_unusable(places);
+    if (options.simplify) refuse_crossings(surface);
+  }
   return places;
 }
 

@@ -155,6 +155,8 @@ void describe(const EnrichResult& result, StageRecord& record) {
                     {"content", static_cast<double>(result.content)},
                     {"largest_height", result.largest_height},
                     {"largest_correction", result.largest_correction}};
+  if (result.gave_up)
+    record.remarks.emplace_back("nothing was added: the volume would have changed by more than its triangles cut off");
   // What an engineer looks for in a part: round things, since faces are many and told by the eye.
   for (const Primitive& primitive : result.primitives)
     if (primitive.use != PrimitiveUse::face) record.remarks.push_back(describe(primitive));

@@ -3,6 +3,7 @@
 #include "preproc/mesh/error.hpp"
 #include "preproc/mesh/numbers.hpp"
 #include "preproc/surface/kernel/adjacency.hpp"
+#include "quality/self_intersections.hpp"
 #include "quality/tetrahedron_measures.hpp"
 #include "quality/triangle_measures.hpp"
 
@@ -137,6 +138,17 @@ void refuse_unusable(const std::vector<WeakPlace>& places) {
                          .limit = "half a degree",
                          .advice = "smaller triangles (--deviation, --faces), or --feature-angle off",
                          .at = place.at});
+}
+
+void refuse_crossings(const SurfaceMesh& surface) {
+  const std::vector<FacePair> crossings = find_self_intersections(surface);
+  if (crossings.empty()) return;
+  throw NotMeshable({.what = "no solver takes the mesh that came out: its surface runs through itself",
+                     .where = {},
+                     .value = std::to_string(crossings.size()) + " pairs of triangles",
+                     .limit = {},
+                     .advice = "another number of triangles (--faces, --deviation), or --feature-angle off",
+                     .at = centroid(surface, surface.triangles[crossings.front().face])});
 }
 
 }  // namespace scan2fea

@@ -35,4 +35,8 @@ std::vector<WeakPlace> find_weak_places(const SurfaceMesh& surface, const TetMes
 // Throws NotMeshable for the first that is unusable.
 void refuse_unusable(const std::vector<WeakPlace>& places);
 
+// Throws NotMeshable where the surface runs through itself: what lies within rounding in the frame in which it was made
+// may cross in the scan's. About a microsecond a triangle.
+void refuse_crossings(const SurfaceMesh& surface);
+
 }  // namespace scan2fea

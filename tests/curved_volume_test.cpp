@@ -58,6 +58,17 @@ TEST(CurvedVolume, IsEnclosedByTheTrianglesAfterwards) {
   }
 }
 
+TEST(CurvedVolume, TellsAFinerSurfaceFromAnotherBody) {
+  const HalfedgeMesh scan(analytic::sphere(1, 1));
+  SurfaceMesh fine = analytic::sphere(1, 4);
+  EXPECT_TRUE(may_be_finer(HalfedgeMesh(fine), scan));
+  for (const double size : {1.2, 0.8}) {
+    SurfaceMesh other = fine;
+    for (Vec3& p : other.vertices) p *= size;
+    EXPECT_FALSE(may_be_finer(HalfedgeMesh(other), scan));
+  }
+}
+
 TEST(CurvedVolume, BordersAndHeldVerticesStay) {
   const HalfedgeMesh ball(analytic::sphere(1, 2));
   EXPECT_EQ(with_curved_volume(ball, std::vector<bool>(ball.vertex_slots(), false), of_ball), ball.points);

@@ -240,7 +240,7 @@ TEST(Enrich, ACrowdedCornerDoesNotFillTheWholeSurface) {
 
 TEST(SideNormals, PartAtSharpEdgesOnly) {
   const SurfaceMesh box = analytic::box(Vec3(1, 1, 1), 0.5);
-  const SideNormals sharp{HalfedgeMesh(box)};
+  const SideNormals sharp(HalfedgeMesh(box), CornerWeight::angle);
   for (std::uint32_t v = 0; v < box.vertices.size(); ++v) {
     const Vec3 out = box.vertices[v] - Vec3(0.5, 0.5, 0.5);
     for (int axis = 0; axis < 3; ++axis)
@@ -252,7 +252,7 @@ TEST(SideNormals, PartAtSharpEdgesOnly) {
   // An octahedron bends by 71 degrees at all edges alike.
   SurfaceMesh coarse{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}},
                      {{0, 1, 2}, {1, 3, 2}, {3, 4, 2}, {4, 0, 2}, {1, 0, 5}, {3, 1, 5}, {4, 3, 5}, {0, 4, 5}}};
-  const SideNormals round{HalfedgeMesh(coarse)};
+  const SideNormals round(HalfedgeMesh(coarse), CornerWeight::angle);
   for (std::uint32_t v = 0; v < coarse.vertices.size(); ++v)
     EXPECT_NEAR((round.facing(v, Vec3::UnitX()) - coarse.vertices[v]).norm(), 0, 1e-9);
 }

@@ -10,7 +10,6 @@
 namespace scan2fea {
 namespace {
 
-
 // A flat fan of six triangles around vertex 0, whose vertices 1 and 2 are farther away than the others.
 SurfaceMesh lopsided_fan(double far) {
   SurfaceMesh mesh;
@@ -25,7 +24,7 @@ SurfaceMesh lopsided_fan(double far) {
 
 std::vector<Vec3> sectors_of_centre(const SurfaceMesh& surface, const ImportanceOptions& options) {
   const HalfedgeMesh mesh(surface);
-  const SideNormals normals(mesh);
+  const SideNormals normals(mesh, CornerWeight::angle);
   return Importance(mesh, normals).empty_sectors(0, options);
 }
 
@@ -53,7 +52,7 @@ TEST(Importance, ALonelyPointAsksAwayFromItsLongestEdge) {
 TEST(Importance, NothingIsMissingBeyondABorder) {
   const SurfaceMesh surface = lopsided_fan(3);
   const HalfedgeMesh mesh(surface);
-  const SideNormals normals(mesh);
+  const SideNormals normals(mesh, CornerWeight::angle);
   // Vertex 4, at (-1, 0), sees its three neighbours within 120 degrees, and the outside of the fan in the other 240.
   EXPECT_TRUE(Importance(mesh, normals).empty_sectors(4, {.sampling_radius = 1.5}).empty());
 }
@@ -61,7 +60,7 @@ TEST(Importance, NothingIsMissingBeyondABorder) {
 TEST(Importance, SpacingIsTheDistanceOfTheSixthNeighbour) {
   const SurfaceMesh surface = lopsided_fan(3);
   const HalfedgeMesh mesh(surface);
-  const SideNormals normals(mesh);
+  const SideNormals normals(mesh, CornerWeight::angle);
   const std::array<HalfedgeMesh::Index, 1> centre{0};
   EXPECT_NEAR(Importance(mesh, normals).median_spacing(centre), 3, 1e-12);
 }

@@ -87,6 +87,8 @@ TEST(NarrowCorners, LoseTheSmootherCreaseUntilTheOtherIsFarEnough) {
     for (const FeatureEdge& e : ray_of_fan(ray)) creases.push_back(e);
   std::sort(creases.begin(), creases.end());
   EXPECT_EQ(without_narrow_corners(mesh, creases, {}), creases);
+  // A corner of a border, where no crease is.
+  EXPECT_TRUE(without_narrow_corners(mesh, {}, {SharpCorner{Vec3::Zero(), 1}}).empty());
 
   const double edge = 0.4;
   const std::vector<FeatureEdge> left = without_narrow_corners(mesh, creases, {{Vec3::Zero(), edge}});

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace scan2fea {
 namespace {
@@ -87,6 +88,17 @@ bool ClearSurface::meets_others(const Triangle& t, Index face, Index without) co
   return meets;
 }
 
+// Cosines of the angles between faces, at all edges of those of v.
+std::vector<double> ClearSurface::bends_around(Index v) const {
+  const auto normal = [&](Index h) { return mesh_.area_vector(HalfedgeMesh::face(h)).normalized(); };
+  std::vector<double> cosines;
+  mesh_.for_each_outgoing(v, [&](Index h) {
+    for (const Index edge : {h, HalfedgeMesh::next(h)})
+      if (!mesh_.is_border(edge)) cosines.push_back(normal(edge).dot(normal(mesh_.opposite(edge))));
+  });
+  return cosines;
+}
+
 bool ClearSurface::move(Index v, const Vec3& place) {
   const Vec3 before = mesh_.points[v];
   if (place == before) return true;
@@ -107,6 +119,16 @@ bool ClearSurface::move(Index v, const Vec3& place) {
   else
     put_star(v);
   return !meets;
+}
+
+bool ClearSurface::move_without_fold(Index v, const Vec3& place) {
+  const std::vector<double> before = bends_around(v);
+  const Vec3 from = std::exchange(mesh_.points[v], place);
+  const std::vector<double> after = bends_around(v);
+  mesh_.points[v] = from;
+  for (std::size_t i = 0; i < after.size(); ++i)
+    if (after[i] < std::min(fold_cosine, before[i])) return false;
+  return move(v, place);
 }
 
 bool ClearSurface::clear_to_flip(Index h) {

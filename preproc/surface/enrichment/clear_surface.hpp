@@ -9,6 +9,9 @@
 
 namespace scan2fea {
 
+// Of the angle between two faces' normals: below, they are a fold, which no part has but at a knife's edge.
+inline constexpr double fold_cosine = -0.3;
+
 // Knows where the faces of a changing mesh are, by a grid. Keeps a reference to the mesh, and must be told of changes
 // that it does not make itself.
 class ClearSurface {
@@ -21,6 +24,10 @@ class ClearSurface {
   // Moves a vertex if none of its faces then meets another or has no area, and none of its edges next to no length;
   // false, and nothing changed, otherwise.
   bool move(Index v, const Vec3& place);
+
+  // The same, and none of its faces comes to lie upon one beside it: a surface that is fitted later runs through itself
+  // there.
+  bool move_without_fold(Index v, const Vec3& place);
 
   // Whether the two faces that a flip would make meet no others. Where it says so, the edge must be flipped next.
   bool clear_to_flip(Index h);
@@ -39,6 +46,7 @@ class ClearSurface {
   void put(Index face, const Cells& cells);
   void put_star(Index v);
   bool meets_others(const Triangle& t, Index face, Index without) const;
+  std::vector<double> bends_around(Index v) const;
 
   HalfedgeMesh& mesh_;
   double cell_;

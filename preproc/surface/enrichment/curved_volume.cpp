@@ -88,6 +88,14 @@ double curved_volume(const HalfedgeMesh& mesh) {
   return flat_volume(mesh) + CutOff(mesh).sum();
 }
 
+bool may_be_finer(const HalfedgeMesh& surface, const HalfedgeMesh& scan) {
+  // Where all is plane nothing is cut off.
+  constexpr double allowance = 2, of_rounding = 1e-6;
+  const double before = flat_volume(scan);
+  return std::abs(flat_volume(surface) - before) <=
+         allowance * CutOff(scan).sum_of_sizes() + of_rounding * std::abs(before);
+}
+
 std::vector<Vec3> with_curved_volume(const HalfedgeMesh& mesh, const std::vector<bool>& free, double volume) {
   const CutOff cut_off(mesh);
   const auto is_movable = [&](Index v) { return free[v] && mesh.is_alive(v) && !mesh.is_border_vertex(v); };

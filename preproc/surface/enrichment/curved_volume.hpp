@@ -13,6 +13,11 @@ namespace scan2fea {
 // within 0.02 %, on a horse with limbs of three to five points around within 0.4, where flat triangles lack 0.4 and 2.
 double curved_volume(const HalfedgeMesh& mesh);
 
+// Whether points between those of `scan` may have made this surface of it: its volume differs by no more than twice
+// what the triangles of `scan` cut off and have too much. Measured: on scans of 4,100 points of three shapes it differs
+// by a tenth to four fifths of that, on coarse balls by all of it.
+bool may_be_finer(const HalfedgeMesh& surface, const HalfedgeMesh& scan);
+
 // Places for the vertices marked `free` by which the flat triangles enclose `volume`; the others stay. What the chords
 // of this mesh cut off goes to their free corners, each of which moves along its normal by what it has over a third of
 // the area around it, shared with its neighbours; where that is not what lacks of `volume`, all of it in proportion, as

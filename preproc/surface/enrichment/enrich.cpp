@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -60,8 +61,8 @@ void move_all(HalfedgeMesh& mesh, ClearSurface& clear, const std::vector<Vec3>& 
   constexpr int sweeps = 3;
   for (int sweep = 0; sweep < sweeps; ++sweep)
     for (Index v = 0; v < targets.size(); ++v)
-      if (mesh.points[v] != targets[v] && !clear.move(v, targets[v]) && sweep + 1 == sweeps)
-        clear.move(v, 0.5 * (mesh.points[v] + targets[v]));
+      if (mesh.points[v] != targets[v] && !clear.move_without_fold(v, targets[v]) && sweep + 1 == sweeps)
+        clear.move_without_fold(v, 0.5 * (mesh.points[v] + targets[v]));
 }
 
 void lift_the_rest(const HalfedgeMesh& scan, HalfedgeMesh& mesh, ClearSurface& clear, const SurfaceLabels& labels,
@@ -145,20 +146,8 @@ void drop_spurs(const std::vector<Vec3>& points, double shortest, std::vector<Fe
   edges = std::move(kept);
 }
 
-}  // namespace
-
-EnrichOptions EnrichOptions::literal() {
-  EnrichOptions options;
-  options.primitives = false;
-  options.lifting = Lifting::shepard;
-  options.place_by = StarObjective::a_entropy;
-  options.placement_distance = 1;
-  options.separation = 0.05;
-  return options;
-}
-
-EnrichResult enrich(SurfaceMesh& mesh, const EnrichOptions& options, const Progress& progress) {
-  check(options);
+// Nothing, and the mesh as it was, where what came out can't be a finer surface of the same body.
+std::optional<EnrichResult> enriched(SurfaceMesh& mesh, const EnrichOptions& options, const Progress& progress) {
   const Primitives found = primitives_of(mesh, options, progress);
   HalfedgeMesh surface(mesh);
   SurfaceLabels labels(surface, found);
@@ -177,12 +166,31 @@ EnrichResult enrich(SurfaceMesh& mesh, const EnrichOptions& options, const Progr
   progress("enrich", 0.8);
   if (options.lifting == Lifting::triharmonic) lift_the_rest(scan, surface, clear, labels, inserted, found);
   unfold(surface, labels, clear);
+  // Sharp edges that are put back add more than parabolas have.
+  if (options.lifting == Lifting::triharmonic && found.list.empty() && !may_be_finer(surface, scan)) return {};
   count_moves(surface, bases, original, result);
   result.creases = creases_of(surface, labels);
   result.primitives = found.list;
   mesh = surface.to_surface();
   drop_spurs(mesh.vertices, 0.04 * bounding_box(mesh.vertices).diagonal(), result.creases);
   return result;
+}
+
+}  // namespace
+
+EnrichOptions EnrichOptions::literal() {
+  EnrichOptions options;
+  options.primitives = false;
+  options.lifting = Lifting::shepard;
+  options.place_by = StarObjective::a_entropy;
+  options.placement_distance = 1;
+  options.separation = 0.05;
+  return options;
+}
+
+EnrichResult enrich(SurfaceMesh& mesh, const EnrichOptions& options, const Progress& progress) {
+  check(options);
+  return enriched(mesh, options, progress).value_or(EnrichResult{.gave_up = true});
 }
 
 }  // namespace scan2fea

@@ -88,6 +88,8 @@ struct EnrichResult {
   std::vector<Primitive> primitives;  // that the scan was found to consist of
   int rounds = 0;
   EnrichStop stop = EnrichStop::all_content;
+  // Nothing was added, since the volume would have changed by more than points between those of a bent scan can tell.
+  bool gave_up = false;
 };
 
 // Precondition: `mesh` is an oriented manifold (NotMeshable otherwise); it may have borders. Original vertices keep
@@ -96,9 +98,11 @@ struct EnrichResult {
 // those of noisy scans, which are smoothed. On free forms new and smoothed points lie outside of round surfaces by as
 // much as gives back what chords of the scan cut off (curved_volume.hpp). Edges are flipped near new vertices only, and
 // never across creases. Faces that a move turned over or drove through others are put back. Where nothing is missing
-// nothing changes. Throws WrongUsage for options out of range. On any throw `mesh` is as it was. Deterministic, one
-// thread; O((n + m) log n) for n vertices and m new ones, about 100 microseconds a new vertex. Not guaranteed: that
-// what a gap of the scan hid is known; that a surface that crossed itself before does not afterwards.
+// nothing changes; nor where the triharmonic lift of a bent surface would change the volume by more than twice what the
+// scan's triangles cut off (curved_volume.hpp). Throws WrongUsage for options out of range. On any throw `mesh` is as
+// it was. Deterministic, one thread; O((n + m) log n) for n vertices and m new ones, about 100 microseconds a new
+// vertex. Not guaranteed: that what a gap of the scan hid is known; that a surface that crossed itself before does not
+// afterwards.
 EnrichResult enrich(SurfaceMesh& mesh, const EnrichOptions& options = {}, const Progress& progress = {});
 
 }  // namespace scan2fea

@@ -7,16 +7,16 @@
 
 namespace scan2fea {
 
-// What triangles add to the normal at a corner of theirs. Their areas would lean towards the largest ones.
+// What triangles add to the normal at a corner of theirs.
 enum class CornerWeight {
-  // Their angle (Thuermer and Wuethrich, Computing vertex normals from polygonal facets, Journal of Graphics Tools
-  // 3(1),
-  // 1998): however the surface is cut into triangles, the sum is the same.
+  // Their area: best on parts, where narrow triangles cut off the edges that the scanner did not hit.
+  area,
+  // Their angle: however the surface is cut into triangles, the sum is the same (Thuermer and Wuethrich, Computing
+  // vertex normals from polygonal facets, Journal of Graphics Tools 3(1), 1998). Best on free forms.
   angle,
   // Exact where a vertex and its neighbours lie on a ball (Max, Weights for computing vertex normals from facet
-  // normals,
-  // Journal of Graphics Tools 4(2), 1999). It trusts short edges most: on average the best where points are few, one by
-  // one the first that noise turns.
+  // normals, Journal of Graphics Tools 4(2), 1999). It trusts short edges most: on average the best where points are
+  // few, one by one the first that noise turns.
   ball,
 };
 
@@ -25,7 +25,7 @@ class SideNormals {
   using Index = HalfedgeMesh::Index;
 
   // Creases part the sides. O(n).
-  explicit SideNormals(const HalfedgeMesh& mesh, CornerWeight weight = CornerWeight::angle);
+  SideNormals(const HalfedgeMesh& mesh, CornerWeight weight);
 
   // Of all faces around v.
   const Vec3& mean(Index v) const { return means_[v]; }

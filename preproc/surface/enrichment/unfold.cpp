@@ -8,8 +8,7 @@ namespace {
 
 using Index = HalfedgeMesh::Index;
 
-// Cosines of the angle between two faces' normals: below, they are a fold; a turn must gain so much.
-constexpr double folded = -0.3, least_gain = 0.2;
+constexpr double least_gain = 0.2;  // of the cosine, by a turn
 
 class Unfolder {
  public:
@@ -23,7 +22,7 @@ class Unfolder {
       std::size_t turned = 0;
       for (Index h = 0; h < 3 * mesh_.face_slots(); ++h) {
         if (!mesh_.is_face_alive(HalfedgeMesh::face(h)) || mesh_.is_border(h) || h > mesh_.opposite(h)) continue;
-        if (!(bend(h) < folded)) continue;
+        if (!(bend(h) < fold_cosine)) continue;
         // The edge itself, or one beside it whose turn opens it.
         const Index o = mesh_.opposite(h);
         for (const Index e :
