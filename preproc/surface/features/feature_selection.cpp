@@ -268,7 +268,7 @@ std::vector<FeatureEdge> without_creases_near(const SurfaceMesh& scan, const std
 
 std::vector<FeatureEdge> without_narrow_corners(const SurfaceMesh& scan, const std::vector<FeatureEdge>& sharp,
                                                 const std::vector<SharpCorner>& corners) {
-  constexpr double narrow = 0.6, reach = 4;  // edges
+  constexpr double narrow = 0.6, reach = 4;            // edges
   if (corners.empty() || sharp.empty()) return sharp;  // those of borders are no creases
   const CreaseGraph graph(scan, sharp);
   std::set<FeatureEdge> dropped;
