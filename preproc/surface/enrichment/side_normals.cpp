@@ -21,21 +21,14 @@ double dihedral_deg(const HalfedgeMesh& mesh, Index h) {
 
 // At the origin of `h`.
 Vec3 corner_normal(const HalfedgeMesh& mesh, Index h, CornerWeight weight) {
+  const Vec3 across = mesh.area_vector(HalfedgeMesh::face(h));
+  const double length = across.norm();
+  if (weight == CornerWeight::area || !(length > 0)) return across;
   const Vec3& p = mesh.points[mesh.origin(h)];
   const Vec3 first = mesh.points[mesh.target(h)] - p;
   const Vec3 second = mesh.points[mesh.origin(HalfedgeMesh::prev(h))] - p;
-  const Vec3 across = mesh.area_vector(HalfedgeMesh::face(h));
-  const double length = across.norm();
-  if (!(length > 0)) return Vec3::Zero();
-  switch (weight) {
-    case CornerWeight::area:
-      return across;
-    case CornerWeight::angle:
-      return std::atan2(length, first.dot(second)) / length * across;
-    case CornerWeight::ball:
-      return across / (first.squaredNorm() * second.squaredNorm());
-  }
-  return across;
+  if (weight == CornerWeight::angle) return std::atan2(length, first.dot(second)) / length * across;
+  return across / (first.squaredNorm() * second.squaredNorm());
 }
 
 }  // namespace

@@ -268,8 +268,9 @@ std::vector<FeatureEdge> without_creases_near(const SurfaceMesh& scan, const std
 
 std::vector<FeatureEdge> without_narrow_corners(const SurfaceMesh& scan, const std::vector<FeatureEdge>& sharp,
                                                 const std::vector<SharpCorner>& corners) {
-  constexpr double narrow = 0.6, reach = 4;            // edges
-  if (corners.empty() || sharp.empty()) return sharp;  // those of borders are no creases
+  constexpr double narrow = 0.6, reach = 4;  // edges
+  // Corners of borders alone have no crease to be given up.
+  if (corners.empty() || sharp.empty()) return sharp;
   const CreaseGraph graph(scan, sharp);
   std::set<FeatureEdge> dropped;
   for (const SharpCorner& corner : corners) {

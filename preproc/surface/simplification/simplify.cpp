@@ -135,9 +135,8 @@ KeptLines lines_to_keep(const SurfaceMesh& mesh, const std::vector<FeatureEdge>&
 std::string feature_remark(std::size_t wanted, std::size_t kept, bool is_noisy) {
   if (kept >= wanted) return {};
   if (kept == 0 && is_noisy)
-    return "noise hides where creases run, and triangles between them are poor: none is kept; of a part, --idealise "
-           "all "
-           "finds them by the shapes of its faces";
+    return "noise hides where creases run, and triangles between them are poor: none is kept; "
+           "of a part, --idealise all finds them by the shapes of its faces";
   const std::string too_large = "triangles of the wanted size are too large for the creases: ";
   if (kept == 0) return too_large + "none is kept";
   return too_large + std::to_string(wanted - kept) + " of " + std::to_string(wanted) + " edges of creases are not kept";
